@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// The C API with C++ manners: initialised structures, results as exceptions, an owned context.
+#pragma once
+
+#include <welkin/welkin.h>
+
+#include <memory>
+#include <string>
+
+namespace host {
+
+/// sType of a structure; one overload per structure that the host fills.
+inline constexpr WlkStructType structType(const WlkErrorInfo&) {
+  return WLK_STRUCT_ERROR_INFO;
+}
+inline constexpr WlkStructType structType(const WlkContextInfo&) {
+  return WLK_STRUCT_CONTEXT_INFO;
+}
+inline constexpr WlkStructType structType(const WlkHeadlessInfo&) {
+  return WLK_STRUCT_HEADLESS_INFO;
+}
+inline constexpr WlkStructType structType(const WlkCapabilities&) {
+  return WLK_STRUCT_CAPABILITIES;
+}
+inline constexpr WlkStructType structType(const WlkPlanet&) {
+  return WLK_STRUCT_PLANET;
+}
+inline constexpr WlkStructType structType(const WlkSky&) {
+  return WLK_STRUCT_SKY;
+}
+inline constexpr WlkStructType structType(const WlkLight&) {
+  return WLK_STRUCT_LIGHT;
+}
+inline constexpr WlkStructType structType(const WlkFog&) {
+  return WLK_STRUCT_FOG;
+}
+inline constexpr WlkStructType structType(const WlkMediumInfo&) {
+  return WLK_STRUCT_MEDIUM_INFO;
+}
+inline constexpr WlkStructType structType(const WlkVolumeInfo&) {
+  return WLK_STRUCT_VOLUME_INFO;
+}
+inline constexpr WlkStructType structType(const WlkVolumeUpload&) {
+  return WLK_STRUCT_VOLUME_UPLOAD;
+}
+inline constexpr WlkStructType structType(const WlkViewInfo&) {
+  return WLK_STRUCT_VIEW_INFO;
+}
+inline constexpr WlkStructType structType(const WlkCamera&) {
+  return WLK_STRUCT_CAMERA;
+}
+inline constexpr WlkStructType structType(const WlkQuality&) {
+  return WLK_STRUCT_QUALITY;
+}
+inline constexpr WlkStructType structType(const WlkHeadlessTargets&) {
+  return WLK_STRUCT_HEADLESS_TARGETS;
+}
+inline constexpr WlkStructType structType(const WlkImageData&) {
+  return WLK_STRUCT_IMAGE_DATA;
+}
+inline constexpr WlkStructType structType(const WlkFrameStats&) {
+  return WLK_STRUCT_FRAME_STATS;
+}
+inline constexpr WlkStructType structType(const WlkRayBatch&) {
+  return WLK_STRUCT_RAY_BATCH;
+}
+
+/// Throws unless `result` is a success. A value that the library rejects is the input's fault
+/// (InputError: `file`: `key`.<field>: message); everything else is a HostError.
+void check(WlkResult result, const std::string& file, const std::string& key);
+
+/// The same for calls that no input can make fail.
+void check(WlkResult result, const char* call);
+
+/// A structure with the library's defaults.
+template <class Struct>
+Struct make() {
+  Struct value{};
+  check(wlkInitStruct(structType(value), sizeof(Struct), &value), "wlkInitStruct");
+  return value;
+}
+
+struct ContextDeleter {
+  void operator()(WlkContext context) const { wlkDestroyContext(context); }
+};
+using ContextPtr = std::unique_ptr<WlkContext_T, ContextDeleter>;
+
+/// Counts what the library logs as error or warning, and repeats it on stderr.
+struct LogCounter {
+  uint32_t problems = 0;
+  static void receive(void* user, uint32_t severity, const char* text);
+};
+
+/// A context without Vulkan.
+ContextPtr makeCpuContext();
+
+/// A context with its own device. `log` must outlive it.
+ContextPtr makeHeadlessContext(bool validation, const std::string& deviceName, LogCounter& log);
+
+}  // namespace host

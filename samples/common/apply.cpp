@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include "common/apply.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+
+namespace host {
+namespace {
+
+void uploadField(WlkContext context, const Scene& scene, WlkVolume volume, uint32_t field,
+                 const Grid& grid, const std::string& key) {
+  auto upload = make<WlkVolumeUpload>();
+  upload.field = field;
+  upload.format = WLK_FORMAT_R32_FLOAT;
+  std::copy(grid.size.begin(), grid.size.end(), upload.extent);
+  upload.data = grid.values.data();
+  upload.dataSize = grid.values.size() * sizeof(float);
+  check(wlkUploadVolume(context, volume, &upload), scene.file, key);
+}
+
+void applyVolume(WlkContext context, const Scene& scene, size_t index,
+                 const std::vector<WlkMedium>& media) {
+  const VolumeDesc& desc = scene.volumes[index];
+  const std::string key = "volumes." + std::to_string(index);
+  std::vector<WlkVolumeField> fields;
+  for (const FieldDesc& field : desc.fields) {
+    fields.push_back({media[field.medium], static_cast<float>(field.extinctionScale), 0});
+  }
+  Grid grid = loadSource(desc.fields[0].source);
+  auto info = make<WlkVolumeInfo>();
+  std::copy(grid.size.begin(), grid.size.end(), info.size);
+  info.fieldCount = static_cast<uint32_t>(fields.size());
+  info.fieldStride = sizeof(WlkVolumeField);
+  info.fields = fields.data();
+  const Affine place = placeVolume(grid.worldFromVolume, desc.placement);
+  std::copy(place.begin(), place.end(), info.worldFromVolume);
+  WlkVolume volume{};
+  check(wlkCreateVolume(context, &info, &volume), scene.file, key);
+  uploadField(context, scene, volume, 0, grid, key);
+  for (uint32_t i = 1; i < fields.size(); ++i) {
+    const Grid other = loadSource(desc.fields[i].source);
+    if (other.size != grid.size) {
+      throw InputError(scene.file, key + ".fields." + std::to_string(i) + ".source",
+                       "expected as many voxels as in field 0");
+    }
+    uploadField(context, scene, volume, i, other, key);
+  }
+}
+
+DepthImage readDepth(const Scene& scene) {
+  DepthImage depth = readExrDepth(scene.opaqueFiles->depth);
+  if (scene.opaqueFiles->kind == DepthKind::View) {
+    for (float& value : depth.values) {
+      // 0 or less and infinity mean "nothing here" in files of view depth.
+      const bool there = value > 0.0f && std::isfinite(value);
+      value = there ? static_cast<float>(deviceDepth(scene.camera, double{value})) : 0.0f;
+    }
+  }
+  return depth;
+}
+
+RasterResult readOpaque(const Scene& scene) {
+  RasterResult opaque{readExr(scene.opaqueFiles->color), readDepth(scene)};
+  const auto checkSize = [&](uint32_t width, uint32_t height, const std::filesystem::path& file) {
+    if (width != scene.view.width || height != scene.view.height) {
+      throw InputError(file.string(), "",
+                       "expected the view's " + std::to_string(scene.view.width) + " x " +
+                           std::to_string(scene.view.height) + " pixels, got " +
+                           std::to_string(width) + " x " + std::to_string(height));
+    }
+  };
+  checkSize(opaque.color.width, opaque.color.height, scene.opaqueFiles->color);
+  checkSize(opaque.depth.width, opaque.depth.height, scene.opaqueFiles->depth);
+  const auto finite = [](float value) { return std::isfinite(value); };
+  if (!std::all_of(opaque.color.rgba.begin(), opaque.color.rgba.end(), finite)) {
+    throw InputError(scene.opaqueFiles->color.string(), "", "expected finite values");
+  }
+  if (!std::all_of(opaque.depth.values.begin(), opaque.depth.values.end(), finite)) {
+    throw InputError(scene.opaqueFiles->depth.string(), "", "expected finite values");
+  }
+  return opaque;
+}
+
+}  // namespace
+
+void applyWorld(WlkContext context, const Scene& scene) {
+  check(wlkSetPlanet(context, &scene.planet), scene.file, "planet");
+  check(wlkSetSky(context, scene.sky ? &*scene.sky : nullptr), scene.file, "sky");
+  check(wlkSetLights(context, static_cast<uint32_t>(scene.lights.size()), sizeof(WlkLight),
+                     scene.lights.data()),
+        scene.file, "lights");
+  check(wlkSetFog(context, scene.fog ? &*scene.fog : nullptr), scene.file, "fog");
+}
+
+void applyVolumes(WlkContext context, const Scene& scene, const Progress& progress) {
+  std::vector<WlkMedium> media(scene.media.size());
+  for (size_t i = 0; i < media.size(); ++i) {
+    check(wlkCreateMedium(context, &scene.media[i].info, &media[i]), scene.file,
+          "media." + scene.media[i].name);
+  }
+  for (size_t i = 0; i < scene.volumes.size(); ++i) {
+    progress("volume " + std::to_string(i + 1) + " of " + std::to_string(scene.volumes.size()));
+    applyVolume(context, scene, i, media);
+  }
+}
+
+WlkView applyView(WlkContext context, const Scene& scene) {
+  WlkView view{};
+  check(wlkCreateView(context, &scene.view, &view), scene.file, "view");
+  auto camera = make<WlkCamera>();
+  fillCamera(scene.camera, scene.view.width, scene.view.height, camera);
+  check(wlkSetCamera(context, view, &camera), scene.file, "camera");
+  check(wlkSetQuality(context, view, &scene.quality), scene.file, "quality");
+  return view;
+}
+
+Illumination sampleIllumination(WlkContext context, const Scene& scene, double lowest,
+                                double highest) {
+  constexpr uint32_t ALTITUDES = 24;
+  constexpr uint32_t RINGS = 8;
+  constexpr uint32_t SPOKES = 16;
+  Illumination light;
+  light.lowest = lowest;
+  light.highest = std::max(highest, lowest + 1.0);
+  // Under the camera: the sun's path through the air differs little over the picture.
+  const Vec3 eye = scene.camera.position;
+  const Vec3 dip = eye - Vec3{scene.planet.seaLevelPoint[0], 0.0, scene.planet.seaLevelPoint[2]};
+  const double fall = (dip.x * dip.x + dip.z * dip.z) / (2.0 * double{scene.planet.radius});
+  const auto atAltitude = [&](double altitude) {
+    return Vec3{eye.x, scene.planet.seaLevelPoint[1] + altitude - fall, eye.z};
+  };
+  for (uint32_t i = 0; i < scene.lights.size(); ++i) {
+    const float* d = scene.lights[i].direction;
+    SunLight sun{{double{d[0]}, double{d[1]}, double{d[2]}}, {}};
+    for (uint32_t k = 0; k < ALTITUDES; ++k) {
+      const Vec3 p =
+          atAltitude(light.lowest + (light.highest - light.lowest) * k / (ALTITUDES - 1));
+      const double position[3] = {p.x, p.y, p.z};
+      std::array<double, 3> irradiance{};
+      check(wlkEvalLight(context, i, position, irradiance.data()), "wlkEvalLight");
+      sun.irradiance.push_back(irradiance);
+    }
+    light.lights.push_back(std::move(sun));
+  }
+  // Midpoints in sin^2 of the elevation weigh every ray the same: E = pi * mean radiance.
+  std::vector<WlkRay> rays;
+  const Vec3 from = atAltitude(0.5 * (light.lowest + light.highest));
+  for (uint32_t i = 0; i < RINGS * SPOKES; ++i) {
+    const double elevation = std::asin(std::sqrt((i / SPOKES + 0.5) / RINGS));
+    const Vec3 d =
+        directionFromAngles(elevation / RADIANS_PER_DEGREE, (i % SPOKES + 0.5) * 360.0 / SPOKES);
+    rays.push_back({{from.x, from.y, from.z}, {d.x, d.y, d.z}, INFINITY});
+  }
+  auto batch = make<WlkRayBatch>();
+  batch.count = static_cast<uint32_t>(rays.size());
+  batch.stride = sizeof(WlkRay);
+  batch.rays = rays.data();
+  std::vector<double> radiance(rays.size() * 3);
+  check(wlkEvalSky(context, &batch, radiance.data(), nullptr), "wlkEvalSky");
+  for (size_t i = 0; i < radiance.size(); ++i) {
+    light.ambient[i % 3] += PI * radiance[i] / (RINGS * SPOKES);
+  }
+  return light;
+}
+
+RasterResult makeOpaque(WlkContext context, const Scene& scene, const Progress& progress) {
+  if (scene.opaqueFiles) {
+    progress("opaque picture");
+    return readOpaque(scene);
+  }
+  if (!scene.geometry) {
+    return {};
+  }
+  progress("terrain");
+  std::optional<HeightField> field;
+  double lowest = scene.camera.position.y - scene.planet.seaLevelPoint[1];
+  double highest = lowest;
+  if (scene.geometry->terrain) {
+    field.emplace(*scene.geometry->terrain);
+    lowest = std::max(field->lowest(), 0.0);
+    highest = field->highest();
+  }
+  for (const SphereInfo& sphere : scene.geometry->spheres) {
+    const double y = sphere.centre.y - scene.planet.seaLevelPoint[1];
+    lowest = std::min(lowest, y - sphere.radius);
+    highest = std::max(highest, y + sphere.radius);
+  }
+  const Illumination light = sampleIllumination(context, scene, lowest, highest);
+  const double* sea = scene.planet.seaLevelPoint;
+  const PlanetShape planet{{sea[0], sea[1], sea[2]}, double{scene.planet.radius}};
+  progress("opaque picture");
+  return rasterise(*scene.geometry, field ? &*field : nullptr, planet, light, scene.camera,
+                   scene.view.width, scene.view.height);
+}
+
+}  // namespace host

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// From a scene to the library's objects, and the opaque picture behind them.
+#pragma once
+
+#include <functional>
+
+#include "common/api.hpp"
+#include "common/scene.hpp"
+
+namespace host {
+
+/// Told before each slow step.
+using Progress = std::function<void(const std::string&)>;
+
+/// Sets planet, air, lights and fog. Enough for the CPU queries.
+void applyWorld(WlkContext context, const Scene& scene);
+
+/// Creates media and volumes and uploads the voxels.
+void applyVolumes(WlkContext context, const Scene& scene, const Progress& progress);
+
+/// Creates the view with its camera and quality.
+WlkView applyView(WlkContext context, const Scene& scene);
+
+/// Light on the ground as the library's CPU model sees it, for rasterise.
+Illumination sampleIllumination(WlkContext context, const Scene& scene, double lowest,
+                                double highest);
+
+/// The opaque picture: drawn, read, or empty images where the scene has none. Needs applyWorld.
+RasterResult makeOpaque(WlkContext context, const Scene& scene, const Progress& progress);
+
+}  // namespace host

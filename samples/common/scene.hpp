@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// A scene file in memory; docs/scene-format.md describes every key.
+#pragma once
+
+#include <welkin/welkin.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/camera.hpp"
+#include "common/geometry.hpp"
+#include "common/image.hpp"
+#include "common/json.hpp"
+#include "common/volume.hpp"
+
+namespace host {
+
+struct MediumDesc {
+  std::string name;
+  WlkMediumInfo info;
+};
+
+/// Where a grid comes from.
+struct SourceDesc {
+  /// Empty for generated data.
+  std::filesystem::path file;
+  std::variant<RawInfo, LesInfo, VdbInfo, CumulusInfo> info;
+};
+
+/// Loads or makes the grid. Throws InputError.
+Grid loadSource(const SourceDesc& source);
+
+/// What to do to the place that the source's own coordinates give.
+struct PlacementDesc {
+  /// Fit the axis-aligned bounding box to [min, min + size] instead of scale and origin.
+  bool box = false;
+  Vec3 min;
+  Vec3 size{1.0, 1.0, 1.0};
+  double scale = 1.0;
+  Vec3 origin;
+  /// Turns about +y, then +x, then +z (of the turned axes), about the box's middle.
+  Vec3 rotationDeg;
+};
+
+/// The source's map, moved. Throws nothing: a flat box gives a singular matrix, which the library
+/// rejects.
+Affine placeVolume(const Affine& natural, const PlacementDesc& placement);
+
+struct FieldDesc {
+  /// Index into Scene::media.
+  size_t medium = 0;
+  double extinctionScale = 1.0;
+  SourceDesc source;
+};
+
+struct VolumeDesc {
+  std::vector<FieldDesc> fields;
+  PlacementDesc placement;
+};
+
+enum class DepthKind { Device, View };
+
+struct OpaqueFiles {
+  std::filesystem::path color;
+  std::filesystem::path depth;
+  DepthKind kind = DepthKind::Device;
+};
+
+struct PngDesc {
+  double exposureStops = 0.0;
+  ToneMap toneMap = ToneMap::Filmic;
+};
+
+struct Scene {
+  /// Name for messages.
+  std::string file;
+  WlkPlanet planet{};
+  std::optional<WlkSky> sky;
+  std::vector<WlkLight> lights;
+  std::optional<WlkFog> fog;
+  std::vector<MediumDesc> media;
+  std::vector<VolumeDesc> volumes;
+  WlkQuality quality{};
+  WlkViewInfo view{};
+  CameraDesc camera;
+  std::optional<GeometryDesc> geometry;
+  std::optional<OpaqueFiles> opaqueFiles;
+  PngDesc png;
+};
+
+/// Reads a scene file, merges it over its `base` files (RFC 7386) and applies assignments.
+Json readSceneJson(const std::string& file, const std::vector<std::string>& assignments);
+
+/// Turns JSON into a scene; relative paths start at the folder of `file`, else where the program
+/// runs. Ranges of the library's own values are left to the library. Throws InputError.
+Scene parseScene(const Json& root, const std::string& file);
+
+/// A medium as in `media`; for the phase command. `key` is its path for messages.
+WlkMediumInfo parseMedium(const JsonNode& node);
+
+/// Parts of parseScene, one file each.
+void parseWorld(const JsonNode& root, Scene& scene);
+void parseVolumes(const JsonNode& root, Scene& scene);
+void parseView(const JsonNode& root, Scene& scene);
+std::filesystem::path resolvePath(const JsonNode& node);
+
+}  // namespace host

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// One view's constants, as 16-byte rows: std140, std430 and C++ agree. Positions are relative to
+// the eye, in m, in world orientation.
+struct FrameUniforms {
+  mat4 eyeFromNdc;      // (ndc x, ndc y, depth, 1) to homogeneous position relative to the eye
+  vec4 viewport;        // width, height, 1/width, 1/height
+  vec4 output_;         // sky depth value, pre-exposure, largest value of the target, unused
+  vec4 eye;             // local up at the eye, altitude of the eye
+  vec4 light;           // direction to the light, angular radius
+  vec4 lightIrradiance; // RGB outside the atmosphere; w: cosine of light and local up
+  vec4 lightDisk;       // RGB radiance of the disk; w: 1 - cos(angular radius)
+  vec4 air;             // RGB scattering at sea level, scale height
+  vec4 fog;             // extinction at base, base altitude, scale height, planet radius
+  vec4 fogAlbedo;       // RGB; w: weightD of the fog's phase function
+  vec4 fogPhase;        // gHg, gapHg, gD, gapD
+  vec4 ground;          // RGB albedo; w: alpha of the fog's phase function
+  vec4 volumeRect;      // x0, y0, x1, y1: pixels any volume may cover
+};

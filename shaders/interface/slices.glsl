@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// One volume's constants in one view, as 16-byte rows. "Plane coordinate" c counts slabs along the
+// slicing axis: slab k lies between c = k and c = k + 1.
+struct VolumeUniforms {
+  mat4 boxFromEye;       // position relative to the eye to the unit box
+  vec4 lightU;           // light-buffer u = dot(p, xyz) + w, p relative to the eye
+  vec4 lightV;           // light-buffer v
+  vec4 plane;            // plane coordinate c = dot(p, xyz) + w
+  vec4 texelOrigin;      // box position of light texel ray (u, v) at c: origin + u A + v B + c C
+  vec4 texelA;           //   w of these four: unused, light path per slab (m), slab count, step (m)
+  vec4 texelB;
+  vec4 texelC;
+  vec4 extinctionScale;  // per field: extinction (1/m) at value 1
+  vec4 meanAlbedo;       // per field
+  vec4 albedo[4];        // per field RGB
+  vec4 phase[4];         // per field gHg, gapHg, gD, gapD
+  vec4 phaseMix;         // per field weightD
+  vec4 phaseAlpha;       // per field alpha
+  vec4 rect;             // pixels x0, y0, x1, y1 of the eye pass
+  vec4 forwardFraction[32];  // F(n) per depth node; component = field
+};
+
+struct SliceConstants {
+  uint firstSlab;
+  uint slabCount;
+  uint flags;  // SLICE_*
+  uint lightSize;
+};
+
+const uint SLICE_FIRST_BATCH = 1u;
+const uint SLICE_LAST_BATCH = 2u;
+const uint SLICE_FIRST_VOLUME = 4u;

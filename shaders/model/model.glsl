@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// Every model file, once, in dependency order. GLSL passes define `real` as float, declare the
+// constants AIR_ENABLED and FOG_ENABLED, and include this; C++ includes it through
+// src/model/model.hpp in float and in double.
+#include "numeric.glsl"
+#include "geometry.glsl"
+#include "phase/rayleigh.glsl"
+#include "phase/fog.glsl"
+#include "sky/segment.glsl"
+#include "sky/riley2004.glsl"
+#include "volume/slices.glsl"
+#include "volume/forward_scattering.glsl"
+#include "composite.glsl"

@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: MIT
+// Once-scattered light and optical depth of air and one fog layer on a spherical planet, RGB, per
+// unit irradiance of the light (1/sr). Follows [R04] 4.1; rewritten: the two-ended segments of
+// segment.glsl are fed with spherical light depths, so few segments replace the flat closed form.
+// Both species are exponential in altitude. Errors against quadrature: tests/unit/sky_test.cpp.
+
+struct Air {
+  real planetRadius;
+  vec3 airScattering;
+  real airScaleHeight;
+  real fogExtinction;
+  real fogBaseAltitude;
+  real fogScaleHeight;
+  vec3 fogAlbedo;
+};
+
+// A ray at its origin: cosines of view and light with the local up and with each other.
+struct AirRay {
+  real altitude;
+  real viewMu;
+  real sunMu;
+  real viewSun;
+};
+
+struct AirResult {
+  vec3 radiance;
+  vec3 opticalDepth;
+};
+
+// Exponent of the relative density is kept in this range: e^-60 is vacuum without subnormal
+// numbers, e^30 times any extinction is opaque.
+const real LAYER_VACUUM = real(-60.0f);
+const real LAYER_SOLID = real(30.0f);
+// Scale heights above the base after which a layer counts as ended: e^-30 of 1e6 optical depths.
+const real LAYER_EXTENT = real(30.0f);
+const real SQRT_PI_HALF = real(0.886226925452758);
+// Rays may go this far below the lower of sea level and origin before they are stopped, in m.
+const real UNDERGROUND = real(1000.0f);
+
+// Lower-order parts of a ray inside the layers.
+struct AirPath {
+  real altitude;
+  real viewMu;
+  real sunMu;
+  real viewSun;
+  real reach;
+  // Distance to the point nearest the planet's centre, and that point's radius.
+  real lowest;
+  real lowestRadius;
+};
+
+// One exponential layer at one point of a ray.
+struct LayerPoint {
+  real exponent;
+  real density;
+  // Depth per unit extinction from here along the ray to infinity, away from the lowest point. m.
+  real column;
+};
+
+// A point of a ray.
+struct AirPoint {
+  real distance;
+  real altitude;
+  LayerPoint air;
+  LayerPoint fog;
+};
+
+real layerExponent(real altitude, real base, real scaleHeight) {
+  return (base - altitude) / scaleHeight;
+}
+
+real layerDensity(real exponent) {
+  return exp(clamp(exponent, LAYER_VACUUM, LAYER_SOLID));
+}
+
+// Depth per unit extinction (m) from radius r towards a direction with cosine mu to the up: density
+// H sqrt(pi X/2) erfcx(sqrt(X/2) |mu|), X = r/H; for mu < 0 twice the lowest point's horizontal
+// value less the opposite direction. Within 0.2 % of the sphere's integral for X > 400.
+real layerColumn(real exponent, real scaleHeight, real radius, real mu) {
+  real width = sqrt(real(2.0f) * radius * scaleHeight);
+  real up = layerDensity(exponent) * erfcxPositive(radius * abs(mu) / width);
+  real sinus = sqrt(max((real(1.0f) - mu) * (real(1.0f) + mu), real(0.0f)));
+  real drop = radius * mu * mu / (scaleHeight * (real(1.0f) + sinus));
+  real down = real(2.0f) * sqrt(sinus) * layerDensity(exponent + drop) - up;
+  // At the nadir the chord is no exponential column; keep it monotone and never negative.
+  return SQRT_PI_HALF * width * (mu < real(0.0f) ? max(down, up) : up);
+}
+
+// Optical depth of air and fog from `altitude` to the light, RGB. Below the horizon it grows
+// smoothly up to opaque; lightVisibility says whether the planet is in the way.
+vec3 lightOpticalDepth(Air air, real altitude, real lightMu) {
+  vec3 depth = vec3(real(0.0f));
+  real radius = air.planetRadius + altitude;
+  if (AIR_ENABLED) {
+    real exponent = layerExponent(altitude, real(0.0f), air.airScaleHeight);
+    depth = air.airScattering * layerColumn(exponent, air.airScaleHeight, radius, lightMu);
+  }
+  if (FOG_ENABLED) {
+    real exponent = layerExponent(altitude, air.fogBaseAltitude, air.fogScaleHeight);
+    real column = layerColumn(exponent, air.fogScaleHeight, radius, lightMu);
+    depth = depth + vec3(air.fogExtinction * column);
+  }
+  return depth;
+}
+
+// Area fraction of a disk of half angle `angularRadius` above the geometric horizon, 0..1: within
+// 1.2e-3 of the circle's segment (odd polynomial of degree 5). The sine of the light's height above
+// the horizon is (mu R + sqrt(h (2R + h)) sqrt(1 - mu^2)) / (R + h); above 90 degrees mu is larger.
+const real DISK_1 = real(0.62970841);
+const real DISK_3 = real(-0.06792375);
+const real DISK_5 = real(-0.06178466);
+const real SMALLEST_DISK = real(1e-5);
+real lightVisibility(Air air, real altitude, real lightMu, real angularRadius) {
+  real h = max(altitude, real(0.0f));
+  real dip = sqrt(altitudePower(h, air.planetRadius));
+  real sinus = sqrt(max((real(1.0f) - lightMu) * (real(1.0f) + lightMu), real(0.0f)));
+  real height = (lightMu * air.planetRadius + dip * sinus) / (air.planetRadius + h);
+  real x = max(height, lightMu) / max(angularRadius, SMALLEST_DISK);
+  x = clamp(x, real(-1.0f), real(1.0f));
+  real z = x * x;
+  return clamp(real(0.5f) + x * (DISK_1 + z * (DISK_3 + z * DISK_5)), real(0.0f), real(1.0f));
+}
+
+// Moves the ray's origin to the top of the layers if it lies above, and ends the ray there or
+// underground, so that every number that follows is finite. The surface is the caller's to clip.
+AirPath clipToAir(Air air, AirRay ray, real distance) {
+  real top = real(1.0f);
+  if (AIR_ENABLED) {
+    top = LAYER_EXTENT * air.airScaleHeight;
+  }
+  if (FOG_ENABLED) {
+    real fogTop = max(air.fogBaseAltitude, real(0.0f)) + LAYER_EXTENT * air.fogScaleHeight;
+    top = max(top, fogTop);
+  }
+  real h = max(ray.altitude, real(-0.5f) * air.planetRadius);
+  real radius = air.planetRadius + h;
+  real topRadius = air.planetRadius + top;
+  real lowest = radius * sqrt(max((real(1.0f) - ray.viewMu) * (real(1.0f) + ray.viewMu),
+                                  real(0.0f)));
+  bool above = h > top;
+  bool reaches = !above || (ray.viewMu < real(0.0f) && lowest < topRadius);
+  // Entry: (r^2 - rt^2) / (r |mu| + rt |mu_t|), from above only.
+  real chord = sqrt(max((topRadius - lowest) * (topRadius + lowest), real(0.0f)));
+  real span = (h - top) * (radius + topRadius);
+  real entry = above ? span / (max(radius * -ray.viewMu, real(0.0f)) + chord) : real(0.0f);
+  AirPath path;
+  path.altitude = above ? top : h;
+  path.viewMu = above ? -chord / topRadius : ray.viewMu;
+  path.sunMu = above ? (radius * ray.sunMu + entry * ray.viewSun) / topRadius : ray.sunMu;
+  path.sunMu = clamp(path.sunMu, real(-1.0f), real(1.0f));
+  path.viewSun = ray.viewSun;
+  path.lowestRadius = lowest;
+  real r = air.planetRadius + path.altitude;
+  real along = r * path.viewMu;
+  path.lowest = -along;
+  real leave = chord - along;
+  leave = !above && along > real(0.0f) ? -span / (along + chord) : leave;
+  real floorAltitude = min(path.altitude, real(0.0f)) - UNDERGROUND;
+  real under = groundDistance(path.altitude - floorAltitude, path.viewMu,
+                              air.planetRadius + floorAltitude);
+  leave = under >= real(0.0f) ? under : leave;
+  path.reach = reaches ? max(min(distance - entry, leave), real(0.0f)) : real(0.0f);
+  return path;
+}
+
+LayerPoint layerPoint(real altitude, real base, real scaleHeight, real radius, real fromLowest) {
+  LayerPoint point;
+  real exponent = layerExponent(altitude, base, scaleHeight);
+  point.exponent = clamp(exponent, LAYER_VACUUM, LAYER_SOLID);
+  point.density = exp(point.exponent);
+  real width = sqrt(real(2.0f) * radius * scaleHeight);
+  point.column = SQRT_PI_HALF * width * point.density * erfcxPositive(abs(fromLowest) / width);
+  return point;
+}
+
+AirPoint airPoint(Air air, AirPath path, real t) {
+  AirPoint point;
+  point.distance = t;
+  point.altitude = altitudeAlongRay(path.altitude, path.viewMu, air.planetRadius, t);
+  real radius = air.planetRadius + point.altitude;
+  real fromLowest = t - path.lowest;
+  if (AIR_ENABLED) {
+    point.air = layerPoint(point.altitude, real(0.0f), air.airScaleHeight, radius, fromLowest);
+  }
+  if (FOG_ENABLED) {
+    point.fog = layerPoint(point.altitude, air.fogBaseAltitude, air.fogScaleHeight, radius,
+                           fromLowest);
+  }
+  return point;
+}
+
+// Depth per unit extinction (m) between two points on the same side of the ray's lowest one, at
+// most `sag` m above the ray's chord. Nearly straight: logarithmic mean of the densities, all from
+// c = (b/2) coth(b/2), b the difference of exponents, times the curvature's series in g sag/H,
+// g = 8 (c - 1) / b^2 the first moment (error <= 5e-4 at the switch). Else: difference of columns.
+const real CURVATURE_2 = real(0.6);
+const real CURVATURE_3 = real(0.857);
+real layerDepth(LayerPoint a, LayerPoint b, real scaleHeight, real length, real sag) {
+  real rise = a.exponent - b.exponent;
+  real z = rise * rise;
+  real sum = a.density + b.density;
+  real slope = abs(rise) < real(0.5f)
+                   ? cothSeries(z)
+                   : (real(0.5f) * rise * sum / (a.density - b.density) - real(1.0f)) / z;
+  real g = real(8.0f) * slope;
+  real s = sag / scaleHeight;
+  real p = g * s;
+  real p2 = (real(1.0f) - CURVATURE_2 * g) * p;
+  real p3 = (real(1.0f) - CURVATURE_3 * g) * p;
+  real curvature = real(1.0f) + p * (real(1.0f) + p2 * (real(1.0f) + p3));
+  real straight = length * real(0.5f) * sum / (real(1.0f) + z * slope) * curvature;
+  return s < real(0.25f) ? straight : abs(a.column - b.column);
+}
+
+// Depths of air (x) and fog (y) between two points, per unit extinction. m.
+vec2 airDepth(Air air, AirPath path, AirPoint a, AirPoint b) {
+  real length = b.distance - a.distance;
+  real radius = air.planetRadius + real(0.5f) * (a.altitude + b.altitude);
+  real across = length * path.lowestRadius / radius;
+  real sag = across * across / (real(8.0f) * radius);
+  vec2 depth = vec2(real(0.0f));
+  if (AIR_ENABLED) {
+    depth.x = layerDepth(a.air, b.air, air.airScaleHeight, length, sag);
+  }
+  if (FOG_ENABLED) {
+    depth.y = layerDepth(a.fog, b.fog, air.fogScaleHeight, length, sag);
+  }
+  return depth;
+}
+
+// Where the stops of one layer lie on a ray: close together near `focus`, the ray's point in the
+// densest part of the layer, and roughly at equal steps of the layer's depth to either side.
+struct Stops {
+  real focus;
+  real width;
+  real slope;
+  real left;
+  real right;
+  real share;
+};
+
+// The layer's depth falls along the ray like e^-E, E = slope d + 0.75 d^2, d = distance from the
+// focus / sqrt(2 r H): the hazard of erfc(z) is close to z + sqrt(z^2 + 4/pi). Only the error of
+// the radiance depends on the stops, so a crude model does.
+const real HAZARD_0 = real(1.2732395);
+Stops layerStops(Air air, AirPath path, real focus, real scaleHeight) {
+  Stops stops;
+  stops.focus = focus;
+  stops.width = sqrt(real(2.0f) * (air.planetRadius + max(path.altitude, real(0.0f))) *
+                     scaleHeight);
+  real z = abs(focus - path.lowest) / stops.width;
+  stops.slope = z + sqrt(z * z + HAZARD_0);
+  real left = focus / stops.width;
+  real right = (path.reach - focus) / stops.width;
+  stops.left = left * (stops.slope + real(0.75f) * left);
+  stops.right = right * (stops.slope + real(0.75f) * right);
+  real weightLeft = stops.left / (real(1.0f) + stops.left);
+  real weightRight = stops.right / (real(1.0f) + stops.right);
+  stops.share = weightLeft / (weightLeft + weightRight + DIRECTION_FLOOR);
+  return stops;
+}
+
+// Distance of the stop with rank u in (0, 1): E = v Ee / (1 + k (1 - v) Ee) steps evenly when the
+// end's Ee is small and like -ln(1 - v) when it is large.
+const real STOP_BEND = real(1.4);
+real stopDistance(Stops stops, real u) {
+  bool before = u < stops.share;
+  real v = before ? real(1.0f) - u / stops.share : (u - stops.share) / (real(1.0f) - stops.share);
+  real end = before ? stops.left : stops.right;
+  real e = v * end / (real(1.0f) + STOP_BEND * (real(1.0f) - v) * end);
+  real d = real(2.0f) * e / (stops.slope + sqrt(stops.slope * stops.slope + real(3.0f) * e));
+  return stops.focus + (before ? -stops.width * d : stops.width * d);
+}
+
+// Distances at which the ray crosses the edge of the planet's shadow, behind the planet as seen
+// from the light; out of [0, length] or beyond if there is none.
+vec2 shadowStops(Air air, AirPath path) {
+  real radius = air.planetRadius + path.altitude;
+  real behind = radius * path.sunMu;
+  real a = max(real(1.0f) - path.viewSun * path.viewSun, DIRECTION_FLOOR);
+  real b = radius * path.viewMu - behind * path.viewSun;
+  real c = altitudePower(path.altitude, air.planetRadius) - behind * behind;
+  real root = sqrt(max(b * b - a * c, real(0.0f)));
+  real q = b < real(0.0f) ? root - b : -root - b;
+  real t0 = q / a;
+  real t1 = abs(q) > real(0.0f) ? c / q : real(0.0f);
+  bool hits = b * b > a * c;
+  vec2 stops;
+  stops.x = hits && behind + t0 * path.viewSun < real(0.0f) ? t0 : real(-1.0f);
+  stops.y = hits && behind + t1 * path.viewSun < real(0.0f) ? t1 : real(-1.0f);
+  return stops;
+}
+
+// The next stop strictly ahead: `stop` if it lies between t and `nearest`, else `nearest`.
+real nearerStop(real stop, real t, real nearest) {
+  return stop > t && stop < nearest ? stop : nearest;
+}
+
+// Logarithmic mean of e0 = e^-t0 and e1 = e^-t1, with rise = t1 - t0: segmentInscatter per unit
+// depth, with exponentials that neighbouring segments share.
+real meanTransmittance(real e0, real e1, real rise) {
+  return abs(rise) < real(0.5f) ? e0 * phi1Small(rise) : (e0 - e1) / rise;
+}
+
+// Optical depth along a ray of `distance` m (may be infinite; the ground is the caller's to clip).
+vec3 airOpticalDepth(Air air, AirRay ray, real distance) {
+  AirPath path = clipToAir(air, ray, distance);
+  AirPoint first = airPoint(air, path, real(0.0f));
+  AirPoint middle = airPoint(air, path, clamp(path.lowest, real(0.0f), path.reach));
+  AirPoint last = airPoint(air, path, path.reach);
+  vec2 depth = airDepth(air, path, first, middle) + airDepth(air, path, middle, last);
+  return air.airScattering * depth.x + vec3(air.fogExtinction * depth.y);
+}
+
+// Segments per ray: stops of each layer, the lowest point, two shadow edges and the end.
+const int AIR_STOPS = 4;
+const int FOG_STOPS = 4;
+const int MAX_SEGMENTS = 11;
+// A fog layer with less optical depth than this around the ray gets no stops.
+const real FOG_MATTERS = real(1e-4);
+
+// Light scattered once towards the ray's origin, and the ray's optical depth. `distance` may be
+// infinite; the caller ends it at the scene or at groundDistance. The light fades with
+// lightVisibility. airPhase and fogPhase are the phase functions' values (1/sr) at the angle
+// between the light's travel and the way to the eye.
+AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, real fogPhase,
+                      real angularRadius) {
+  AirPath path = clipToAir(air, ray, distance);
+  real radius = air.planetRadius + path.altitude;
+  real focus = clamp(path.lowest, real(0.0f), path.reach);
+  vec2 shadow = shadowStops(air, path);
+  Stops airStops = layerStops(air, path, focus, air.airScaleHeight);
+  Stops fogStops = layerStops(air, path, focus, air.fogScaleHeight);
+  int airRank = AIR_ENABLED ? 1 : AIR_STOPS;
+  int fogRank = FOG_STOPS;
+  if (FOG_ENABLED) {
+    real low = altitudeAlongRay(path.altitude, path.viewMu, air.planetRadius, focus);
+    real dense = layerDensity(layerExponent(low, air.fogBaseAltitude, air.fogScaleHeight));
+    fogRank = air.fogExtinction * dense * fogStops.width > FOG_MATTERS ? 1 : FOG_STOPS;
+  }
+  AirPoint here = airPoint(air, path, real(0.0f));
+  vec3 nearDepth = lightOpticalDepth(air, here.altitude, path.sunMu);
+  vec3 nearLight = vec3(safeExp(-nearDepth.x), safeExp(-nearDepth.y), safeExp(-nearDepth.z));
+  vec3 viewDepth = vec3(real(0.0f));
+  AirResult result;
+  result.radiance = vec3(real(0.0f));
+  int segment = 0;
+  do {
+    real airStop = airRank < AIR_STOPS
+                       ? stopDistance(airStops, real(airRank) / real(AIR_STOPS)) : path.reach;
+    real fogStop = fogRank < FOG_STOPS
+                       ? stopDistance(fogStops, real(fogRank) / real(FOG_STOPS)) : path.reach;
+    real t = clamp(min(airStop, fogStop), here.distance, path.reach);
+    t = nearerStop(path.lowest, here.distance, t);
+    t = nearerStop(shadow.x, here.distance, t);
+    t = nearerStop(shadow.y, here.distance, t);
+    t = segment + 1 < MAX_SEGMENTS ? t : path.reach;
+    airRank = airStop <= t ? airRank + 1 : airRank;
+    fogRank = fogStop <= t ? fogRank + 1 : fogRank;
+
+    AirPoint next = airPoint(air, path, t);
+    vec2 depth = airDepth(air, path, here, next);
+    vec3 airPart = air.airScattering * depth.x;
+    real fogPart = air.fogExtinction * depth.y;
+    viewDepth = viewDepth + airPart + vec3(fogPart);
+
+    real farRadius = air.planetRadius + next.altitude;
+    real farMu = (radius * path.sunMu + t * path.viewSun) / farRadius;
+    farMu = clamp(farMu, real(-1.0f), real(1.0f));
+    vec3 farDepth = lightOpticalDepth(air, next.altitude, farMu) + viewDepth;
+    vec3 farLight = vec3(safeExp(-farDepth.x), safeExp(-farDepth.y), safeExp(-farDepth.z));
+    vec3 rise = farDepth - nearDepth;
+    vec3 mean;
+    mean.x = meanTransmittance(nearLight.x, farLight.x, rise.x);
+    mean.y = meanTransmittance(nearLight.y, farLight.y, rise.y);
+    mean.z = meanTransmittance(nearLight.z, farLight.z, rise.z);
+
+    // The planet's shadow at the middle: its edges are stops.
+    real between = real(0.5f) * (here.distance + t);
+    real middle = altitudeAlongRay(path.altitude, path.viewMu, air.planetRadius, between);
+    real middleMu = (radius * path.sunMu + between * path.viewSun) / (air.planetRadius + middle);
+    real lit = lightVisibility(air, middle, clamp(middleMu, real(-1.0f), real(1.0f)),
+                               angularRadius);
+    vec3 source = airPart * airPhase + air.fogAlbedo * (fogPart * fogPhase);
+    result.radiance = result.radiance + source * mean * lit;
+
+    here = next;
+    nearDepth = farDepth;
+    nearLight = farLight;
+    segment += 1;
+  } while (here.distance < path.reach && segment < MAX_SEGMENTS);
+  result.opticalDepth = viewDepth;
+  return result;
+}

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// Eye buffer of one batch of slabs: each pixel marches through the slabs of the batch that its ray
+// meets, nearest first, and merges the result with what earlier batches left. Rays that run with
+// the slicing axis composite front to back over the batches, rays against it back to front
+// (Kniss et al., [R04] 5); every ray decides for itself, so nothing flips at 90 degrees.
+// [R04] Eq. 26 as corrected: opacity 1 - e^-x per stretch, light at the middle of the stretch.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "common.glsl"
+#include "../interface/slices.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 3) const uint FIELD_COUNT = 1;
+layout(constant_id = 4) const bool FORWARD_SCATTERING = true;
+layout(constant_id = 5) const bool DEPTH_ENABLED = true;
+
+layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
+layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volume; };
+layout(set = 0, binding = 3) uniform sampler3D lightBuffer;
+layout(set = 0, binding = 4) uniform sampler3D field0;
+layout(set = 0, binding = 5) uniform sampler3D field1;
+layout(set = 0, binding = 6) uniform sampler3D field2;
+layout(set = 0, binding = 7) uniform sampler3D field3;
+layout(set = 0, binding = 8) uniform sampler2DArray scatteringTable;
+layout(set = 0, binding = 9) uniform sampler2D depthImage;
+layout(set = 0, binding = 10, std430) buffer FrameState { vec4 frameState[]; };
+layout(set = 0, binding = 11, std430) buffer VolumeState { vec4 volumeState[]; };
+layout(push_constant) uniform Push { SliceConstants slice; };
+
+#include "ray.glsl"
+#include "fields.glsl"
+#include "air_nodes.glsl"
+
+const float OPAQUE = 1.0e-6f;     // transmittance at which a ray ends; bound of its relative error
+const float LONGEST_RAY = 1.0e7f; // m inside one volume
+const uint MAX_SUBSTEPS = 256u;   // per slab, for rays that run along it
+
+FogPhase fieldPhase(int i) {
+  FogPhase p;
+  p.gHg = volume.phase[i].x;
+  p.gapHg = volume.phase[i].y;
+  p.gD = volume.phase[i].z;
+  p.gapD = volume.phase[i].w;
+  p.alpha = volume.phaseAlpha[i];
+  p.weightD = volume.phaseMix[i];
+  return p;
+}
+
+// Radiance scattered towards the eye per extinction-weighted phase: sum of the fields'
+// extinction * albedo * light * phase. `phase` holds the fields' single-scattering values.
+vec3 scatteredLight(vec4 extinction, vec4 phase, vec2 light, float angle) {
+  float tau = light.x;
+  if (!FORWARD_SCATTERING) {
+    float direct = exp(-tau);
+    vec4 weight = extinction * phase;
+    vec3 sum = volume.albedo[0].xyz * weight.x;
+    if (FIELD_COUNT > 1u) {
+      sum += volume.albedo[1].xyz * weight.y;
+    }
+    if (FIELD_COUNT > 2u) {
+      sum += volume.albedo[2].xyz * weight.z;
+    }
+    if (FIELD_COUNT > 3u) {
+      sum += volume.albedo[3].xyz * weight.w;
+    }
+    return sum * direct;
+  }
+  // phi was accumulated with the mean albedo; each colour scales it by its own.
+  vec3 sum = vec3(0.0f);
+  for (uint i = 0u; i < FIELD_COUNT; ++i) {
+    float mean = max(volume.meanAlbedo[i], 1.0e-6f);
+    vec3 albedo = volume.albedo[i].xyz;
+    vec3 intensity = exp(min(light.y * albedo / mean - tau, vec3(0.0f)));
+    float n = tau * volume.meanAlbedo[i];
+    vec2 uv = (vec2(angle * 127.0f, depthCoordinate(n) * 31.0f) + 0.5f) / vec2(128.0f, 32.0f);
+    float ratio = exp(textureLod(scatteringTable, vec3(uv, float(i)), 0.0f).x);
+    sum += intensity * albedo * (extinction[i] * phase[i] * ratio);
+  }
+  return sum;
+}
+
+void main() {
+  uvec2 offset = tileOf(gl_WorkGroupID.xy, gl_NumWorkGroups.xy) * 8u + gl_LocalInvocationID.xy;
+  uvec2 pixel = uvec2(volume.rect.xy) + offset;
+  if (pixel.x >= uint(volume.rect.z) || pixel.y >= uint(volume.rect.w)) {
+    return;
+  }
+  uint index = pixel.y * uint(frame.viewport.x) + pixel.x;
+  vec3 direction = pixelDirection(frame, vec2(pixel));
+  float surface = LONGEST_RAY * 100.0f;
+  if (DEPTH_ENABLED) {
+    float d = texelFetch(depthImage, ivec2(pixel), 0).x;
+    surface = surfaceDistance(frame, vec2(pixel), d);
+  }
+
+  // Everything on the ray is affine in the distance t (m).
+  vec3 boxOrigin = volume.boxFromEye[3].xyz;
+  vec3 boxStep = (volume.boxFromEye * vec4(direction, 0.0f)).xyz;
+  Span span = rayBox(boxOrigin, boxStep, vec3(0.0f), vec3(1.0f));
+  span.end = min(min(span.end, surface), span.begin + LONGEST_RAY);
+  vec3 lightOrigin = vec3(volume.lightU.w, volume.lightV.w, volume.plane.w);
+  vec3 lightStep = vec3(dot(direction, volume.lightU.xyz), dot(direction, volume.lightV.xyz),
+                        dot(direction, volume.plane.xyz));
+  float rate = abs(lightStep.z) < 1.0e-12f ? 1.0e-12f : lightStep.z;  // planes per m
+  float ahead = rate > 0.0f ? 1.0f : -1.0f;
+  float enterPlane = float(slice.firstSlab) + (rate > 0.0f ? 0.0f : float(slice.slabCount));
+  float leavePlane = float(slice.firstSlab) + (rate > 0.0f ? float(slice.slabCount) : 0.0f);
+  float t = max(span.begin, (enterPlane - lightOrigin.z) / rate);
+  float last = min(span.end, (leavePlane - lightOrigin.z) / rate);
+
+  vec4 state = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  if ((slice.flags & SLICE_FIRST_BATCH) == 0u) {
+    state = volumeState[index];
+  }
+
+  if (last > t && !(rate > 0.0f && state.w < OPAQUE)) {
+    vec4 phase = vec4(0.0f);
+    float y = oneMinusCosine(direction, frame.light.xyz);
+    float angle = phaseCoordinate(y);
+    if (LIGHT_ENABLED) {
+      phase.x = fogPhase(fieldPhase(0), y);
+      if (FIELD_COUNT > 1u) {
+        phase.y = fogPhase(fieldPhase(1), y);
+      }
+      if (FIELD_COUNT > 2u) {
+        phase.z = fogPhase(fieldPhase(2), y);
+      }
+      if (FIELD_COUNT > 3u) {
+        phase.w = fogPhase(fieldPhase(3), y);
+      }
+    }
+    AirNodes nodes = airNodes(direction, span.begin, span.end);
+
+    float layers = float(slice.slabCount) + 1.0f;
+    float maxStep = volume.texelC.w;
+    vec4 batch = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    // Plane at the far side of the current slab, in ray order; the half step keeps rounding at a
+    // batch's edge from repeating its last slab.
+    float plane = enterPlane;
+    float planeAtT = lightOrigin.z + t * rate;
+    plane += ahead * (floor(max(ahead * (planeAtT - enterPlane), 0.0f)) + 1.0f);
+    float stop = min(last, (plane - lightOrigin.z) / rate);
+    uint left = uint(clamp(ceil((stop - t) / maxStep), 1.0f, float(MAX_SUBSTEPS)));
+    float dt = max(stop - t, 0.0f) / float(left);
+    uint guard = 0u;
+    do {
+      float middle = t + 0.5f * dt;
+      vec4 extinction = fieldExtinction(boxOrigin + middle * boxStep);
+      float beta = extinction.x + extinction.y + extinction.z + extinction.w;
+      float x = beta * dt;
+      vec3 source = vec3(0.0f);
+      AirAt air = airAt(nodes, middle);
+      if (LIGHT_ENABLED) {
+        vec3 at = lightOrigin + middle * lightStep;
+        at.z = (at.z - float(slice.firstSlab) + 0.5f) / layers;
+        vec2 light = textureLod(lightBuffer, at, 0.0f).xy;
+        source = scatteredLight(extinction, phase, light, angle) * air.light;
+      }
+      float average = phi1(x) * dt;  // (1 - e^-x) / beta without the division
+      float opacity = x * phi1(x);
+      batch.xyz += batch.w * (source * average * air.transmittance + air.radiance * opacity);
+      batch.w *= 1.0f - opacity;
+      t += dt;
+      left -= 1u;
+      if (left == 0u) {
+        t = stop;
+        plane += ahead;
+        stop = min(last, (plane - lightOrigin.z) / rate);
+        left = uint(clamp(ceil((stop - t) / maxStep), 1.0f, float(MAX_SUBSTEPS)));
+        dt = max(stop - t, 0.0f) / float(left);
+      }
+      guard += 1u;
+    } while (t < last && batch.w > OPAQUE && guard < 65000u);
+
+    if (rate > 0.0f) {
+      state = vec4(state.xyz + state.w * batch.xyz, state.w * batch.w);
+    } else {
+      state = vec4(batch.xyz + batch.w * state.xyz, state.w * batch.w);
+    }
+  }
+
+  if ((slice.flags & SLICE_LAST_BATCH) != 0u) {
+    if ((slice.flags & SLICE_FIRST_VOLUME) == 0u) {
+      vec4 front = frameState[index];
+      state = vec4(front.xyz + front.w * state.xyz, front.w * state.w);
+    }
+    frameState[index] = state;
+  } else {
+    volumeState[index] = state;
+  }
+}

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// The ray of a pixel and the distance of the engine's surface on it.
+struct PixelRay {
+  vec3 direction;
+  float surface;  // m; infinite where nothing is there
+};
+
+const float INFINITE_DISTANCE = 1.0e30f;
+
+vec3 pixelDirection(FrameUniforms frame, vec2 pixel) {
+  vec2 ndc = (pixel + 0.5f) * frame.viewport.zw * 2.0f - 1.0f;
+  vec4 p = frame.eyeFromNdc * vec4(ndc, 0.5f, 1.0f);
+  return normalize(p.w < 0.0f ? -p.xyz : p.xyz);
+}
+
+// Distance behind depth value d: |p| / w, infinite for the sky's value and for w -> 0.
+float surfaceDistance(FrameUniforms frame, vec2 pixel, float d) {
+  vec2 ndc = (pixel + 0.5f) * frame.viewport.zw * 2.0f - 1.0f;
+  vec4 p = frame.eyeFromNdc * vec4(ndc, d, 1.0f);
+  float reach = length(p.xyz);
+  float w = abs(p.w);
+  if (d == frame.output_.x || !(w * INFINITE_DISTANCE > reach)) {
+    return INFINITE_DISTANCE;
+  }
+  return reach / w;
+}
+
+Air airOf(FrameUniforms frame) {
+  Air air;
+  air.planetRadius = frame.fog.w;
+  air.airScattering = frame.air.xyz;
+  air.airScaleHeight = frame.air.w;
+  air.fogExtinction = frame.fog.x;
+  air.fogBaseAltitude = frame.fog.y;
+  air.fogScaleHeight = frame.fog.z;
+  air.fogAlbedo = frame.fogAlbedo.xyz;
+  return air;
+}
+
+AirRay airRayOf(FrameUniforms frame, vec3 direction) {
+  AirRay ray;
+  ray.altitude = frame.eye.w;
+  ray.viewMu = dot(direction, frame.eye.xyz);
+  ray.sunMu = frame.lightIrradiance.w;
+  ray.viewSun = 1.0f - oneMinusCosine(direction, frame.light.xyz);
+  return ray;
+}
+
+float fogPhaseOf(FrameUniforms frame, vec3 direction) {
+  FogPhase p;
+  p.gHg = frame.fogPhase.x;
+  p.gapHg = frame.fogPhase.y;
+  p.gD = frame.fogPhase.z;
+  p.gapD = frame.fogPhase.w;
+  p.alpha = frame.ground.w;
+  p.weightD = frame.fogAlbedo.w;
+  return fogPhase(p, oneMinusCosine(direction, frame.light.xyz));
+}
+
+// The same ray seen from a point `t` further on.
+AirRay advanceRay(Air air, AirRay ray, float t) {
+  AirRay next;
+  next.altitude = altitudeAlongRay(ray.altitude, ray.viewMu, air.planetRadius, t);
+  float before = air.planetRadius + ray.altitude;
+  float after = air.planetRadius + next.altitude;
+  next.viewMu = clamp((before * ray.viewMu + t) / after, -1.0f, 1.0f);
+  next.sunMu = clamp((before * ray.sunMu + t * ray.viewSun) / after, -1.0f, 1.0f);
+  next.viewSun = ray.viewSun;
+  return next;
+}

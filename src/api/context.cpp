@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+#include "api/context.hpp"
+
+#include <welkin/welkin_vulkan.h>
+
+#include <cstring>
+#include <utility>
+
+namespace {
+
+using namespace welkin;
+
+// The chain of WlkContextInfo: at most one device structure.
+struct ContextChain {
+  const WlkVulkanDeviceInfo* device = nullptr;
+  const WlkHeadlessInfo* headless = nullptr;
+};
+
+ContextChain readChain(const void* next) {
+  ContextChain chain;
+  for (; next != nullptr;) {
+    StructHeader header;
+    std::memcpy(&header, next, sizeof header);
+    if (header.sType == WLK_STRUCT_VULKAN_DEVICE_INFO && chain.device == nullptr) {
+      checkHeader(next, header.sType, sizeof(WlkVulkanDeviceInfo));
+      chain.device = static_cast<const WlkVulkanDeviceInfo*>(next);
+    } else if (header.sType == WLK_STRUCT_HEADLESS_INFO && chain.headless == nullptr) {
+      checkHeader(next, header.sType, sizeof(WlkHeadlessInfo));
+      chain.headless = static_cast<const WlkHeadlessInfo*>(next);
+    } else {
+      fail(WLK_ERROR_UNKNOWN_STRUCT, WLK_STRUCT_CONTEXT_INFO, "next",
+           "WlkContextInfo's chain holds an unknown or repeated structure (sType %u)",
+           header.sType);
+    }
+    next = header.next;
+  }
+  if (chain.device != nullptr && chain.headless != nullptr) {
+    fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_CONTEXT_INFO, "next",
+         "WlkVulkanDeviceInfo and WlkHeadlessInfo exclude each other");
+  }
+  return chain;
+}
+
+vk::DeviceInfo deviceInfoOf(const WlkVulkanDeviceInfo& info) {
+  const auto require = [](const void* pointer, const char* field) {
+    if (pointer == nullptr) {
+      fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_VULKAN_DEVICE_INFO, field,
+           "WlkVulkanDeviceInfo::%s is null", field);
+    }
+  };
+  require(reinterpret_cast<const void*>(info.getInstanceProcAddr), "getInstanceProcAddr");
+  require(info.instance, "instance");
+  require(info.physicalDevice, "physicalDevice");
+  require(info.device, "device");
+  if (info.apiVersion < VK_API_VERSION_1_3) {
+    fail(WLK_ERROR_MISSING_FEATURE, WLK_STRUCT_VULKAN_DEVICE_INFO, "apiVersion",
+         "WlkVulkanDeviceInfo::apiVersion is %u.%u, Welkin needs 1.3",
+         VK_API_VERSION_MAJOR(info.apiVersion), VK_API_VERSION_MINOR(info.apiVersion));
+  }
+  vk::DeviceInfo result;
+  result.getInstanceProcAddr = info.getInstanceProcAddr;
+  result.instance = info.instance;
+  result.physicalDevice = info.physicalDevice;
+  result.device = info.device;
+  result.pipelineCache = info.pipelineCache;
+  result.queueFamilyIndex = info.queueFamilyIndex;
+  result.dualSrcBlend = info.dualSrcBlendEnabled != 0;
+  return result;
+}
+
+vk::Image makeDummy(vk::Device& device, VkImageType type) {
+  vk::ImageInfo info;
+  info.type = type;
+  info.format = VK_FORMAT_R32_SFLOAT;
+  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  return vk::Image(device, info);
+}
+
+}  // namespace
+
+WlkContext_T::WlkContext_T(const WlkContextInfo& contextInfo)
+    : maxFramesInFlight(contextInfo.maxFramesInFlight),
+      log(contextInfo.log),
+      logUser(contextInfo.logUser),
+      memory(contextInfo.allocator),
+      media(&memory, tag()),
+      volumes(&memory, tag()),
+      views(&memory, tag()),
+      pending(&memory),
+      retired(&memory),
+      imported(&memory),
+      recordVolumes(&memory) {
+  wlkInitStruct(WLK_STRUCT_PLANET, sizeof air.planet, &air.planet);
+  const ContextChain chain = readChain(contextInfo.next);
+  if (chain.headless != nullptr) {
+    vk::HeadlessOptions options;
+    options.deviceName = chain.headless->deviceName;
+    options.validation = (chain.headless->flags & WLK_HEADLESS_VALIDATION) != 0;
+    options.log = log;
+    options.logUser = logUser;
+    headless.emplace(options);
+    device.emplace(headless->deviceInfo(), &memory);
+    headless->attach(*device);
+    mode = WLK_MODE_HEADLESS;
+  } else if (chain.device != nullptr) {
+    device.emplace(deviceInfoOf(*chain.device), &memory);
+    mode = WLK_MODE_ENGINE_DEVICE;
+  }
+  if (device) {
+    pipelines.emplace(*device, &memory);
+    dummy2d = makeDummy(*device, VK_IMAGE_TYPE_2D);
+    dummy3d = makeDummy(*device, VK_IMAGE_TYPE_3D);
+  }
+}
+
+WlkContext_T::~WlkContext_T() {
+  magic = 0;
+  if (!device) {
+    return;
+  }
+  for (uint32_t i = 0; i < views.slotCount(); ++i) {
+    if (ViewState* view = views.at(i)) {
+      destroyView(*device, *view);
+    }
+  }
+  completedFrame = ~uint64_t{0};
+  collect();
+  for (const ImportedView& view : imported) {
+    device->vk().DestroyImageView(device->handle(), view.view, nullptr);
+  }
+}
+
+uint16_t WlkContext_T::tag() const {
+  // Fibonacci hash of the address: contexts alive at the same time get different tags, nearly
+  // always.
+  return static_cast<uint16_t>(reinterpret_cast<uint64_t>(this) * 0x9e3779b97f4a7c15u >> 48);
+}
+
+vk::Device& WlkContext_T::requireDevice(const char* what) {
+  if (!device) {
+    fail(WLK_ERROR_WRONG_STATE, 0, "context", "%s needs a device; this context is CPU-only", what);
+  }
+  if (deviceLost) {
+    fail(WLK_ERROR_DEVICE_LOST, 0, "context", "the device was lost");
+  }
+  return *device;
+}
+
+MediumState& WlkContext_T::medium(WlkMedium handle) {
+  MediumState* found = media.find(handle.id);
+  if (found == nullptr) {
+    fail(WLK_ERROR_INVALID_HANDLE, 0, "medium", "no such medium");
+  }
+  return *found;
+}
+
+VolumeState& WlkContext_T::volume(WlkVolume handle) {
+  VolumeState* found = volumes.find(handle.id);
+  if (found == nullptr) {
+    fail(WLK_ERROR_INVALID_HANDLE, 0, "volume", "no such volume");
+  }
+  return *found;
+}
+
+ViewState& WlkContext_T::view(WlkView handle) {
+  ViewState* found = views.find(handle.id);
+  if (found == nullptr) {
+    fail(WLK_ERROR_INVALID_HANDLE, 0, "view", "no such view");
+  }
+  return *found;
+}
+
+void WlkContext_T::invalidate() {
+  for (uint32_t i = 0; i < views.slotCount(); ++i) {
+    if (ViewState* view = views.at(i)) {
+      view->prepared = false;
+    }
+  }
+}
+
+void WlkContext_T::forgetBindings() {
+  for (uint32_t i = 0; i < views.slotCount(); ++i) {
+    if (ViewState* view = views.at(i)) {
+      for (ViewSlot& slot : view->resources.slots) {
+        slot.composite.bound = {};
+        for (BoundSet& set : slot.volumes) {
+          set.bound = {};
+        }
+      }
+    }
+  }
+}
+
+void WlkContext_T::retireView(ViewState& view) {
+  if (view.resources.slots.empty()) {
+    return;
+  }
+  Retired& entry = retired.emplace_back(&memory);
+  entry.frame = frameIndex;
+  std::swap(entry.view, view.resources);
+}
+
+void WlkContext_T::collect() {
+  for (size_t i = 0; i < retired.size();) {
+    if (retired[i].frame > completedFrame) {
+      ++i;
+      continue;
+    }
+    ViewState carrier(&memory);
+    std::swap(carrier.resources, retired[i].view);
+    destroyView(*device, carrier);
+    if (i + 1 != retired.size()) {
+      std::swap(retired[i], retired.back());
+    }
+    retired.pop_back();
+  }
+}
+
+void WlkContext_T::emit(uint32_t severity, const char* text) const {
+  if (log != nullptr) {
+    log(logUser, severity, text);
+  }
+}
+
+namespace welkin {
+
+WlkContext_T& checkContext(WlkContext context) {
+  if (context == nullptr || context->magic != CONTEXT_MAGIC) {
+    fail(WLK_ERROR_INVALID_HANDLE, 0, "context", "the context is null or destroyed");
+  }
+  return *context;
+}
+
+}  // namespace welkin
+
+WlkResult wlkCreateContext(const WlkContextInfo* info, WlkContext* context) {
+  return guarded([&] {
+    checkPointer(context, "context");
+    *context = nullptr;
+    const WlkContextInfo copy = copyStruct(info, WLK_STRUCT_CONTEXT_INFO);
+    // 0.x: the minor version is the compatibility line.
+    if (copy.apiVersion >> 12 != WLK_API_VERSION >> 12) {
+      fail(WLK_ERROR_VERSION, WLK_STRUCT_CONTEXT_INFO, "apiVersion",
+           "built against %u.%u, this library is %d.%d", copy.apiVersion >> 22,
+           copy.apiVersion >> 12 & 0x3ff, WLK_VERSION_MAJOR, WLK_VERSION_MINOR);
+    }
+    checkRange(WLK_STRUCT_CONTEXT_INFO, "maxFramesInFlight", copy.maxFramesInFlight, 1, 8);
+    if ((copy.allocator.allocate == nullptr) != (copy.allocator.release == nullptr)) {
+      fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_CONTEXT_INFO, "allocator",
+           "WlkContextInfo::allocator needs both functions or none");
+    }
+    HostMemory memory(copy.allocator);
+    std::pmr::memory_resource& resource = memory;
+    void* place = resource.allocate(sizeof(WlkContext_T), alignof(WlkContext_T));
+    try {
+      *context = new (place) WlkContext_T(copy);
+    } catch (...) {
+      resource.deallocate(place, sizeof(WlkContext_T), alignof(WlkContext_T));
+      throw;
+    }
+    return WLK_SUCCESS;
+  });
+}
+
+void wlkDestroyContext(WlkContext context) {
+  if (context == nullptr || context->magic != CONTEXT_MAGIC) {
+    return;
+  }
+  HostMemory memory(context->memory.allocator());
+  std::pmr::memory_resource& resource = memory;
+  context->~WlkContext_T();
+  resource.deallocate(context, sizeof(WlkContext_T), alignof(WlkContext_T));
+}
+
+WlkResult wlkGetCapabilities(WlkContext context, WlkCapabilities* capabilities) {
+  return guarded([&] {
+    const WlkContext_T& c = checkContext(context);
+    checkOutput(capabilities, WLK_STRUCT_CAPABILITIES, sizeof *capabilities);
+    capabilities->mode = c.mode;
+    capabilities->maxLights = 1;
+    capabilities->vulkanVersion = 0;
+    capabilities->maxVolumeSize = 0;
+    capabilities->blendSupported = 0;
+    capabilities->deviceName[0] = '\0';
+    if (c.device) {
+      const VkPhysicalDeviceProperties& properties = c.device->properties();
+      capabilities->vulkanVersion = properties.apiVersion;
+      capabilities->maxVolumeSize = properties.limits.maxImageDimension3D;
+      capabilities->blendSupported = c.device->info().dualSrcBlend && !c.headless ? 1 : 0;
+      std::snprintf(capabilities->deviceName, sizeof capabilities->deviceName, "%s",
+                    properties.deviceName);
+    }
+    return WLK_SUCCESS;
+  });
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// Everything behind a WlkContext.
+#pragma once
+
+#include <memory_resource>
+#include <optional>
+#include <vector>
+
+#include "api/error.hpp"
+#include "api/handle_pool.hpp"
+#include "api/validate.hpp"
+#include "frame/record.hpp"
+#include "frame/resources.hpp"
+#include "frame/scene.hpp"
+#include "host_memory.hpp"
+#include "vk/headless.hpp"
+
+namespace welkin {
+
+constexpr uint32_t CONTEXT_MAGIC = 0x574c4b43;  // "WLKC"
+
+// Objects whose last use was recorded in `frame`; destroyed when that is complete.
+struct Retired {
+  explicit Retired(std::pmr::memory_resource* memory) : view(memory) {}
+  uint64_t frame = 0;
+  ViewResources view;
+  std::array<vk::Image, WLK_MAX_FIELDS + 1> images;
+  std::array<vk::Buffer, 2> buffers;
+};
+
+// A view of an engine's image, kept until wlkVulkanForgetImage.
+struct ImportedView {
+  VkImage image;
+  VkImageViewType type;
+  VkFormat format;
+  VkImageView view;
+};
+
+}  // namespace welkin
+
+// Members in order of dependence: destroyed from the last to the first.
+struct WlkContext_T {
+  explicit WlkContext_T(const WlkContextInfo& contextInfo);
+  ~WlkContext_T();
+  WlkContext_T(const WlkContext_T&) = delete;
+  WlkContext_T& operator=(const WlkContext_T&) = delete;
+
+  uint32_t magic = welkin::CONTEXT_MAGIC;
+  uint32_t mode = WLK_MODE_CPU;
+  uint32_t maxFramesInFlight = 3;
+  WlkLogCallback log = nullptr;
+  void* logUser = nullptr;
+  welkin::HostMemory memory;
+  std::optional<welkin::vk::Headless> headless;
+  std::optional<welkin::vk::Device> device;
+  std::optional<welkin::vk::Pipelines> pipelines;
+
+  welkin::AirState air;
+  welkin::HandlePool<welkin::MediumState> media;
+  welkin::HandlePool<welkin::VolumeState> volumes;
+  welkin::HandlePool<welkin::ViewState> views;
+
+  uint64_t frameIndex = 0;  // 0: no frame begun
+  uint64_t completedFrame = 0;
+  bool deviceLost = false;
+  uint64_t bytesUploaded = 0;  // by the last update
+  uint32_t updateCopies = 0;
+  std::pmr::vector<welkin::PendingUpload> pending;
+  std::pmr::vector<welkin::Retired> retired;
+  std::pmr::vector<welkin::ImportedView> imported;
+  std::pmr::vector<welkin::RecordVolume> recordVolumes;
+  welkin::vk::Image dummy2d;
+  welkin::vk::Image dummy3d;
+
+  uint16_t tag() const;
+  bool hasDevice() const { return device.has_value(); }
+  welkin::vk::Device& requireDevice(const char* what);
+  welkin::MediumState& medium(WlkMedium handle);
+  welkin::VolumeState& volume(WlkVolume handle);
+  welkin::ViewState& view(WlkView handle);
+  // Every view needs wlkPrepare again.
+  void invalidate();
+  // Forget what descriptor sets point to: handles may be reused for other objects.
+  void forgetBindings();
+  void retireView(welkin::ViewState& view);
+  void collect();
+  void emit(uint32_t severity, const char* text) const;
+};
+
+namespace welkin {
+
+// Throws INVALID_HANDLE for null or something that is no context.
+WlkContext_T& checkContext(WlkContext context);
+
+// Records pending uploads and first-use transitions.
+void recordUpdate(WlkContext_T& context, VkCommandBuffer commands);
+
+// Plans the view's frame and records it.
+void recordFrame(WlkContext_T& context, VkCommandBuffer commands, ViewState& view,
+                 const ViewTargets& targets);
+
+// View of an engine's image from the cache, made when it is new.
+VkImageView importView(WlkContext_T& context, const WlkVulkanImage& image, VkImageViewType type,
+                       VkImageAspectFlags aspect);
+
+}  // namespace welkin

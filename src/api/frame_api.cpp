@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: MIT
+// Frames: prepare, begin, uploads, headless rendering and read-back.
+#include <cstring>
+#include <utility>
+
+#include "api/context.hpp"
+
+namespace {
+
+using namespace welkin;
+
+constexpr WlkVulkanImageState NOTHING{VK_IMAGE_LAYOUT_UNDEFINED, 0, VK_PIPELINE_STAGE_2_NONE,
+                                      VK_ACCESS_2_NONE};
+constexpr WlkVulkanImageState TRANSFER_TARGET{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 0,
+                                              VK_PIPELINE_STAGE_2_TRANSFER_BIT,
+                                              VK_ACCESS_2_TRANSFER_WRITE_BIT};
+constexpr WlkVulkanImageState TRANSFER_SOURCE{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, 0,
+                                              VK_PIPELINE_STAGE_2_TRANSFER_BIT,
+                                              VK_ACCESS_2_TRANSFER_READ_BIT};
+constexpr WlkVulkanImageState SAMPLED{
+    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, 0,
+    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+    VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+
+void clearOnce(const vk::Dispatch& vk, VkCommandBuffer commands, vk::Image& image) {
+  if (image.layout != VK_IMAGE_LAYOUT_UNDEFINED) {
+    return;
+  }
+  imageBarrier(vk, commands, image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, NOTHING, TRANSFER_TARGET);
+  const VkClearColorValue zero{};
+  const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  vk.CmdClearColorImage(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &zero, 1,
+                        &range);
+  imageBarrier(vk, commands, image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, TRANSFER_TARGET, SAMPLED);
+  image.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+}
+
+// Copies `regions` into an image that shaders sample afterwards.
+void copyInto(const vk::Dispatch& vk, VkCommandBuffer commands, const vk::Buffer& from,
+              vk::Image& image, const VkBufferImageCopy& region, bool clearFirst) {
+  WlkVulkanImageState before = SAMPLED;
+  before.layout = image.layout;
+  if (image.layout == VK_IMAGE_LAYOUT_UNDEFINED) {
+    before = NOTHING;
+  }
+  imageBarrier(vk, commands, image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, before, TRANSFER_TARGET);
+  if (clearFirst && image.layout == VK_IMAGE_LAYOUT_UNDEFINED) {
+    const VkClearColorValue zero{};
+    const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    vk.CmdClearColorImage(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &zero, 1,
+                          &range);
+    imageBarrier(vk, commands, image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, TRANSFER_TARGET,
+                 TRANSFER_TARGET);
+  }
+  vk.CmdCopyBufferToImage(commands, from.handle(), image.handle(),
+                          VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+  imageBarrier(vk, commands, image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, TRANSFER_TARGET, SAMPLED);
+  image.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+}
+
+bool partial(const VkBufferImageCopy& region, const vk::Image& image) {
+  const VkExtent3D& a = region.imageExtent;
+  const VkExtent3D& b = image.info().extent;
+  return a.width != b.width || a.height != b.height || a.depth != b.depth;
+}
+
+void uploadTable(WlkContext_T& c, VkCommandBuffer commands, VolumeState& volume) {
+  VkBufferImageCopy region{};
+  region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, volume.fieldCount};
+  region.imageExtent = volume.table.info().extent;
+  copyInto(c.device->vk(), commands, volume.tableStaging, volume.table, region, false);
+  c.bytesUploaded += volume.tableStaging.size();
+  ++c.updateCopies;
+  Retired& entry = c.retired.emplace_back(&c.memory);
+  entry.frame = c.frameIndex;
+  entry.buffers[0] = std::move(volume.tableStaging);
+}
+
+TargetImage ownTarget(const vk::Image& image, const WlkVulkanImageState& before,
+                      const WlkVulkanImageState& after) {
+  TargetImage target;
+  target.image = image.handle();
+  target.view = image.view();
+  target.before = before;
+  target.after = after;
+  return target;
+}
+
+// Copies host pixels into one of the view's own images; `offset` is its place in the upload buffer.
+void uploadPixels(const vk::Dispatch& vk, VkCommandBuffer commands, ViewState& view,
+                  const float* pixels, VkDeviceSize offset, VkDeviceSize bytes, vk::Image& image) {
+  std::memcpy(static_cast<char*>(view.resources.upload.data()) + offset, pixels, bytes);
+  VkBufferImageCopy region{};
+  region.bufferOffset = offset;
+  region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  region.imageExtent = {view.info.width, view.info.height, 1};
+  copyInto(vk, commands, view.resources.upload, image, region, false);
+}
+
+void readTarget(const vk::Dispatch& vk, VkCommandBuffer commands, const ViewState& view,
+                const vk::Image& image, VkDeviceSize offset) {
+  VkBufferImageCopy region{};
+  region.bufferOffset = offset;
+  region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  region.imageExtent = {view.info.width, view.info.height, 1};
+  vk.CmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                          view.resources.readback.handle(), 1, &region);
+}
+
+void renderHeadless(WlkContext_T& c, ViewState& view, const WlkHeadlessTargets& targets) {
+  const vk::Dispatch& vk = c.device->vk();
+  VkCommandBuffer commands = c.headless->begin();
+  recordUpdate(c, commands);
+  ViewResources& r = view.resources;
+  const VkDeviceSize pixels = VkDeviceSize{view.info.width} * view.info.height;
+  ViewTargets images;
+  if (targets.color != nullptr) {
+    uploadPixels(vk, commands, view, targets.color, 0, pixels * 16, r.color);
+    images.colorInput = ownTarget(r.color, SAMPLED, SAMPLED);
+  }
+  if (targets.depth != nullptr) {
+    uploadPixels(vk, commands, view, targets.depth, pixels * 16, pixels * 4, r.depth);
+    images.depth = ownTarget(r.depth, SAMPLED, SAMPLED);
+  }
+  images.target0 = ownTarget(r.target0, NOTHING, TRANSFER_SOURCE);
+  if (view.info.composite == WLK_COMPOSITE_SEPARATE) {
+    images.target1 = ownTarget(r.target1, NOTHING, TRANSFER_SOURCE);
+  }
+  recordFrame(c, commands, view, images);
+  readTarget(vk, commands, view, r.target0, 0);
+  if (images.target1) {
+    readTarget(vk, commands, view, r.target1, pixels * 16);
+  }
+  VkMemoryBarrier2 toHost{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+  toHost.srcStageMask = VK_PIPELINE_STAGE_2_TRANSFER_BIT;
+  toHost.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+  toHost.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
+  toHost.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
+  VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+  dependency.memoryBarrierCount = 1;
+  dependency.pMemoryBarriers = &toHost;
+  vk.CmdPipelineBarrier2(commands, &dependency);
+  c.headless->submitAndWait();
+  c.completedFrame = c.frameIndex;
+  c.collect();
+}
+
+}  // namespace
+
+namespace welkin {
+
+void recordUpdate(WlkContext_T& c, VkCommandBuffer commands) {
+  const vk::Dispatch& vk = c.device->vk();
+  c.bytesUploaded = 0;
+  c.updateCopies = 0;
+  clearOnce(vk, commands, c.dummy2d);
+  clearOnce(vk, commands, c.dummy3d);
+  // Room first: from the first command on nothing may throw.
+  c.retired.reserve(c.retired.size() + c.pending.size() + c.volumes.count());
+  for (uint32_t i = 0; i < c.volumes.slotCount(); ++i) {
+    VolumeState* volume = c.volumes.at(i);
+    if (volume != nullptr && volume->tableStaging) {
+      uploadTable(c, commands, *volume);
+    }
+  }
+  for (PendingUpload& upload : c.pending) {
+    VolumeState& volume = *c.volumes.find(upload.volumeId);
+    vk::Image& image = volume.fields[upload.field].image;
+    copyInto(vk, commands, upload.staging, image, upload.region, partial(upload.region, image));
+    c.bytesUploaded += upload.staging.size();
+    ++c.updateCopies;
+    Retired& entry = c.retired.emplace_back(&c.memory);
+    entry.frame = c.frameIndex;
+    entry.buffers[0] = std::move(upload.staging);
+  }
+  c.pending.clear();
+}
+
+void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
+                 const ViewTargets& targets) {
+  PlanInput input;
+  input.layers = view.info.layers;
+  input.sky = c.air.sky.has_value();
+  input.fog = c.air.fog.has_value() && c.air.fog->extinction > 0;
+  input.planet = c.air.planet;
+  if (c.air.light) {
+    const WlkLight& light = *c.air.light;
+    input.light =
+        light.irradiance[0] > 0 || light.irradiance[1] > 0 || light.irradiance[2] > 0;
+    input.toLight =
+        glm::normalize(glm::dvec3(light.direction[0], light.direction[1], light.direction[2]));
+    input.lightAngularRadius = 0.5 * light.angularDiameter;
+  }
+  input.eye = {view.camera.position[0], view.camera.position[1], view.camera.position[2]};
+  input.clipFromEye = view.clipFromEye;
+  input.width = view.info.width;
+  input.height = view.info.height;
+  input.quality = resolveQuality(view.quality);
+  // Headless and separate targets hold a result even when nothing is drawn; an engine's image that
+  // is composited in place does not need one.
+  input.mustWrite = view.info.composite == WLK_COMPOSITE_SEPARATE ||
+                    (view.info.composite == WLK_COMPOSITE_COMPUTE && !targets.inputIsTarget);
+  view.planVolumes.clear();
+  c.recordVolumes.clear();
+  for (uint32_t i = 0; i < c.volumes.slotCount(); ++i) {
+    VolumeState* volume = c.volumes.at(i);
+    if (volume == nullptr) {
+      continue;
+    }
+    PlanVolume plan;
+    plan.id = c.volumes.idOf(i);
+    plan.index = static_cast<uint32_t>(c.recordVolumes.size());
+    plan.worldFromBox = volume->worldFromBox;
+    plan.anyDensity = volume->anyDensity();
+    view.planVolumes.push_back(plan);
+    RecordVolume record;
+    record.state = volume;
+    for (uint32_t f = 0; f < volume->fieldCount; ++f) {
+      if (volume->fields[f].external) {
+        record.externalViews[f] = importView(c, *volume->fields[f].external,
+                                             VK_IMAGE_VIEW_TYPE_3D, VK_IMAGE_ASPECT_COLOR_BIT);
+      }
+    }
+    c.recordVolumes.push_back(record);
+  }
+  input.volumes = view.planVolumes;
+  makePlan(input, view.plan);
+
+  RecordInput record;
+  record.air = &c.air;
+  record.volumes = c.recordVolumes;
+  record.dummy2d = c.dummy2d.view();
+  record.dummy3d = c.dummy3d.view();
+  record.frameIndex = c.frameIndex;
+  record.slot = static_cast<uint32_t>(c.frameIndex % c.maxFramesInFlight);
+  recordView(*c.device, *c.pipelines, commands, view, record, targets);
+}
+
+}  // namespace welkin
+
+WlkResult wlkPrepare(WlkContext context) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    vk::Device& device = c.requireDevice("wlkPrepare");
+    std::array<bool, WLK_MAX_FIELDS + 1> used{};
+    for (uint32_t i = 0; i < c.volumes.slotCount(); ++i) {
+      if (VolumeState* volume = c.volumes.at(i)) {
+        prepareVolume(device, *volume);
+        used[volume->fieldCount] = true;
+      }
+    }
+    std::array<uint32_t, WLK_MAX_FIELDS> counts{};
+    size_t kinds = 0;
+    for (uint32_t n = 1; n <= WLK_MAX_FIELDS; ++n) {
+      if (used[n]) {
+        counts[kinds++] = n;
+      }
+    }
+    SceneFeatures features;
+    features.sky = c.air.sky.has_value();
+    features.fog = c.air.fog.has_value();
+    c.recordVolumes.reserve(c.volumes.count());
+    for (uint32_t i = 0; i < c.views.slotCount(); ++i) {
+      ViewState* view = c.views.at(i);
+      if (view == nullptr || view->prepared) {
+        continue;
+      }
+      c.retired.reserve(c.retired.size() + 1);
+      // prepareView swaps new resources in; the old ones wait for their frames.
+      ViewState carrier(&c.memory);
+      carrier.info = view->info;
+      carrier.quality = view->quality;
+      prepareView(device, *c.pipelines, carrier, c.volumes.count(), c.maxFramesInFlight, features,
+                  {counts.data(), kinds}, &c.memory);
+      view->plan.volumes.reserve(c.volumes.count());
+      view->planVolumes.reserve(c.volumes.count());
+      view->record.passes.reserve(2 + 2 * size_t{c.volumes.count()});
+      c.retireView(*view);
+      std::swap(view->resources, carrier.resources);
+      view->prepared = true;
+    }
+    c.collect();
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkBeginFrame(WlkContext context, const WlkFrameInfo* frame) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    const WlkFrameInfo f = copyStruct(frame, WLK_STRUCT_FRAME_INFO);
+    checkNoChain(frame);
+    c.requireDevice("wlkBeginFrame");
+    if (c.mode != WLK_MODE_ENGINE_DEVICE) {
+      fail(WLK_ERROR_WRONG_STATE, 0, "context", "headless contexts begin their frames themselves");
+    }
+    if (f.frameIndex <= c.frameIndex) {
+      fail(WLK_ERROR_INVALID_ARGUMENT, f.sType, "frameIndex",
+           "WlkFrameInfo::frameIndex is %llu, the last frame was %llu",
+           static_cast<unsigned long long>(f.frameIndex),
+           static_cast<unsigned long long>(c.frameIndex));
+    }
+    if (f.completedFrameIndex < c.completedFrame || f.completedFrameIndex >= f.frameIndex) {
+      fail(WLK_ERROR_INVALID_ARGUMENT, f.sType, "completedFrameIndex",
+           "WlkFrameInfo::completedFrameIndex is %llu, expected [%llu, %llu)",
+           static_cast<unsigned long long>(f.completedFrameIndex),
+           static_cast<unsigned long long>(c.completedFrame),
+           static_cast<unsigned long long>(f.frameIndex));
+    }
+    if (f.frameIndex - f.completedFrameIndex > c.maxFramesInFlight) {
+      fail(WLK_ERROR_FRAMES_IN_FLIGHT, f.sType, "completedFrameIndex",
+           "%llu frames would be in flight, maxFramesInFlight is %u",
+           static_cast<unsigned long long>(f.frameIndex - f.completedFrameIndex),
+           c.maxFramesInFlight);
+    }
+    c.frameIndex = f.frameIndex;
+    c.completedFrame = f.completedFrameIndex;
+    for (uint32_t i = 0; i < c.views.slotCount(); ++i) {
+      if (ViewState* view = c.views.at(i)) {
+        harvest(*c.device, *view, c.completedFrame);
+      }
+    }
+    c.collect();
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkRenderHeadless(WlkContext context, WlkView view, const WlkHeadlessTargets* targets) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    ViewState& state = c.view(view);
+    WlkHeadlessTargets value{};
+    if (targets != nullptr) {
+      value = copyStruct(targets, WLK_STRUCT_HEADLESS_TARGETS);
+      checkNoChain(targets);
+    }
+    c.requireDevice("wlkRenderHeadless");
+    if (!c.headless) {
+      fail(WLK_ERROR_WRONG_STATE, 0, "context", "wlkRenderHeadless needs a headless context");
+    }
+    if (!state.prepared) {
+      fail(WLK_ERROR_NOT_PREPARED, 0, "view", "call wlkPrepare before rendering");
+    }
+    ++c.frameIndex;
+    try {
+      renderHeadless(c, state, value);
+    } catch (const Failure& failure) {
+      c.deviceLost = c.deviceLost || failure.result == WLK_ERROR_DEVICE_LOST;
+      throw;
+    }
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkReadback(WlkContext context, WlkView view, const WlkImageData* image) {
+  return guarded([&]() -> WlkResult {
+    WlkContext_T& c = checkContext(context);
+    ViewState& state = c.view(view);
+    const WlkImageData value = copyStruct(image, WLK_STRUCT_IMAGE_DATA);
+    checkNoChain(image);
+    if (!c.headless) {
+      fail(WLK_ERROR_WRONG_STATE, 0, "context", "wlkReadback needs a headless context");
+    }
+    checkPointer(value.data, "data");
+    const uint64_t bytes = uint64_t{state.info.width} * state.info.height * 16;
+    if (value.dataSize < bytes) {
+      fail(WLK_ERROR_INVALID_ARGUMENT, value.sType, "dataSize",
+           "WlkImageData::dataSize is %llu, the image has %llu bytes",
+           static_cast<unsigned long long>(value.dataSize),
+           static_cast<unsigned long long>(bytes));
+    }
+    const bool separate = state.info.composite == WLK_COMPOSITE_SEPARATE;
+    const bool fits = separate ? value.image == WLK_IMAGE_RADIANCE ||
+                                     value.image == WLK_IMAGE_TRANSMITTANCE
+                               : value.image == WLK_IMAGE_COLOR;
+    if (!fits) {
+      fail(WLK_ERROR_INVALID_ARGUMENT, value.sType, "image",
+           "WlkImageData::image is %u, which the view's composite mode does not write",
+           value.image);
+    }
+    if (state.lastFrame == 0 || !state.prepared) {
+      return WLK_NOT_READY;
+    }
+    const uint64_t offset = value.image == WLK_IMAGE_TRANSMITTANCE ? bytes : 0;
+    std::memcpy(value.data,
+                static_cast<const char*>(state.resources.readback.data()) + offset, bytes);
+    return WLK_SUCCESS;
+  });
+}

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT
+// Planet, sky, lights, fog, media and volumes.
+#include <cmath>
+#include <utility>
+
+#include "api/context.hpp"
+#include "api/volume_data.hpp"
+
+namespace {
+
+using namespace welkin;
+
+WlkPlanet checkedPlanet(const WlkPlanet* planet) {
+  const WlkPlanet p = copyStruct(planet, WLK_STRUCT_PLANET);
+  checkNoChain(planet);
+  for (const double x : p.seaLevelPoint) {
+    checkRange(p.sType, "seaLevelPoint", x, -1e9, 1e9);
+  }
+  checkUnit(p.sType, "up", p.up);
+  checkRange(p.sType, "radius", p.radius, 1e4, 1e9);
+  checkRange3(p.sType, "groundAlbedo", p.groundAlbedo, 0, 1);
+  return p;
+}
+
+WlkSky checkedSky(const WlkSky* sky) {
+  const WlkSky s = copyStruct(sky, WLK_STRUCT_SKY);
+  checkNoChain(sky);
+  checkRange3(s.sType, "rayleighScattering", s.rayleighScattering, 0, 1);
+  checkRange(s.sType, "scaleHeight", s.scaleHeight, 100, 1e5);
+  return s;
+}
+
+WlkLight checkedLight(const WlkLight* light) {
+  const WlkLight l = copyStruct(light, WLK_STRUCT_LIGHT);
+  checkNoChain(light);
+  checkUnit(l.sType, "direction", l.direction);
+  checkRange(l.sType, "angularDiameter", l.angularDiameter, 0, 0.2);
+  checkRange3(l.sType, "irradiance", l.irradiance, 0, 1e6);
+  return l;
+}
+
+WlkFog checkedFog(const WlkFog* fog) {
+  const WlkFog f = copyStruct(fog, WLK_STRUCT_FOG);
+  checkNoChain(fog);
+  checkRange(f.sType, "dropletDiameter_um", f.dropletDiameter_um, 5, 50);
+  checkRange(f.sType, "extinction", f.extinction, 0, 10);
+  checkRange(f.sType, "baseAltitude", f.baseAltitude, -1e4, 1e5);
+  checkRange(f.sType, "scaleHeight", f.scaleHeight, 1, 1e5);
+  checkRange3(f.sType, "singleScatteringAlbedo", f.singleScatteringAlbedo, 0, 1);
+  return f;
+}
+
+glm::dmat4x3 transformOf(const double* m) {
+  return {m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10], m[3], m[7], m[11]};
+}
+
+void checkVolumeSize(const vk::Device& device, const WlkVolumeInfo& info) {
+  const uint32_t limit = device.properties().limits.maxImageDimension3D;
+  for (const uint32_t n : info.size) {
+    if (n < 1) {
+      fail(WLK_ERROR_INVALID_ARGUMENT, info.sType, "size", "WlkVolumeInfo::size holds a 0");
+    }
+    if (n > limit) {
+      fail(WLK_ERROR_LIMIT_EXCEEDED, info.sType, "size",
+           "WlkVolumeInfo::size holds %u, the device allows %u", n, limit);
+    }
+  }
+}
+
+// A field takes at least 2 bytes per voxel; refuses what no heap can hold before the driver does.
+void checkVolumeMemory(vk::Device& device, const WlkVolumeInfo& info) {
+  const double bytes = 2.0 * info.size[0] * info.size[1] * info.size[2] * info.fieldCount;
+  const auto heap = static_cast<double>(device.memory().largestHeap());
+  if (bytes > heap) {
+    fail(WLK_ERROR_OUT_OF_DEVICE_MEMORY, info.sType, "size",
+         "a volume of %u x %u x %u voxels needs %.0f MiB, the device's heap has %.0f",
+         info.size[0], info.size[1], info.size[2], bytes / 1048576.0, heap / 1048576.0);
+  }
+}
+
+}  // namespace
+
+WlkResult wlkSetPlanet(WlkContext context, const WlkPlanet* planet) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    WlkPlanet value;
+    if (planet == nullptr) {
+      wlkInitStruct(WLK_STRUCT_PLANET, sizeof value, &value);
+    } else {
+      value = checkedPlanet(planet);
+    }
+    c.air.planet = value;
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkSetSky(WlkContext context, const WlkSky* sky) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    std::optional<WlkSky> value;
+    if (sky != nullptr) {
+      value = checkedSky(sky);
+    }
+    if (value.has_value() != c.air.sky.has_value()) {
+      c.invalidate();
+    }
+    c.air.sky = value;
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkSetFog(WlkContext context, const WlkFog* fog) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    std::optional<WlkFog> value;
+    if (fog != nullptr) {
+      value = checkedFog(fog);
+    }
+    if (value.has_value() != c.air.fog.has_value()) {
+      c.invalidate();
+    }
+    c.air.fog = value;
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkSetLights(WlkContext context, uint32_t count, uint32_t stride,
+                       const WlkLight* lights) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    if (count > 1) {
+      fail(WLK_ERROR_LIMIT_EXCEEDED, WLK_STRUCT_LIGHT, "count",
+           "%u lights, this version takes 1", count);
+    }
+    std::optional<WlkLight> value;
+    if (count == 1) {
+      checkPointer(lights, "lights");
+      if (stride < sizeof(WlkLight)) {
+        fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_LIGHT, "stride",
+             "stride is %u, expected at least %zu", stride, sizeof(WlkLight));
+      }
+      value = checkedLight(lights);
+    }
+    c.air.light = value;
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkCreateMedium(WlkContext context, const WlkMediumInfo* info, WlkMedium* medium) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    checkPointer(medium, "medium");
+    const Medium value = checkedMedium(info);
+    const uint64_t id = c.media.create();
+    c.media.find(id)->medium = value;
+    medium->id = id;
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkDestroyMedium(WlkContext context, WlkMedium medium) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    if (c.medium(medium).users > 0) {
+      fail(WLK_ERROR_WRONG_STATE, 0, "medium", "%u volume fields use this medium",
+           c.medium(medium).users);
+    }
+    c.media.destroy(medium.id);
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkCreateVolume(WlkContext context, const WlkVolumeInfo* info, WlkVolume* volume) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    checkPointer(volume, "volume");
+    const WlkVolumeInfo v = copyStruct(info, WLK_STRUCT_VOLUME_INFO);
+    checkNoChain(info);
+    vk::Device& device = c.requireDevice("wlkCreateVolume");
+    checkRange(v.sType, "fieldCount", v.fieldCount, 1, WLK_MAX_FIELDS);
+    checkVolumeSize(device, v);
+    checkVolumeMemory(device, v);
+    checkTransform(v.sType, "worldFromVolume", v.worldFromVolume);
+    if (v.fieldStride < sizeof(WlkVolumeField)) {
+      fail(WLK_ERROR_INVALID_ARGUMENT, v.sType, "fieldStride",
+           "WlkVolumeInfo::fieldStride is %u, expected at least %zu", v.fieldStride,
+           sizeof(WlkVolumeField));
+    }
+    checkPointer(v.fields, "fields");
+    std::array<WlkVolumeField, WLK_MAX_FIELDS> fields{};
+    for (uint32_t i = 0; i < v.fieldCount; ++i) {
+      std::memcpy(&fields[i],
+                  reinterpret_cast<const char*>(v.fields) + size_t{i} * v.fieldStride,
+                  sizeof fields[i]);
+      c.medium(fields[i].medium);
+      checkRange(v.sType, "extinctionScale", fields[i].extinctionScale, 0, 1e6);
+    }
+    const uint64_t id = c.volumes.create();
+    VolumeState& state = *c.volumes.find(id);
+    state.size = {v.size[0], v.size[1], v.size[2]};
+    state.fieldCount = v.fieldCount;
+    state.worldFromBox = transformOf(v.worldFromVolume);
+    for (uint32_t i = 0; i < v.fieldCount; ++i) {
+      MediumState& used = c.medium(fields[i].medium);
+      ++used.users;
+      state.fields[i].mediumId = fields[i].medium.id;
+      state.fields[i].medium = used.medium;
+      state.fields[i].extinctionScale = fields[i].extinctionScale;
+    }
+    c.invalidate();
+    volume->id = id;
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkDestroyVolume(WlkContext context, WlkVolume volume) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    VolumeState& state = c.volume(volume);
+    Retired& entry = c.retired.emplace_back(&c.memory);
+    entry.frame = c.frameIndex;
+    for (uint32_t i = 0; i < state.fieldCount; ++i) {
+      entry.images[i] = std::move(state.fields[i].image);
+      --c.media.find(state.fields[i].mediumId)->users;
+    }
+    entry.images[WLK_MAX_FIELDS] = std::move(state.table);
+    entry.buffers[0] = std::move(state.tableStaging);
+    std::erase_if(c.pending, [&](const PendingUpload& p) { return p.volumeId == volume.id; });
+    c.volumes.destroy(volume.id);
+    c.forgetBindings();
+    c.collect();
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkSetVolumeTransform(WlkContext context, WlkVolume volume,
+                                const double worldFromVolume[12]) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    VolumeState& state = c.volume(volume);
+    checkPointer(worldFromVolume, "worldFromVolume");
+    checkTransform(WLK_STRUCT_VOLUME_INFO, "worldFromVolume", worldFromVolume);
+    state.worldFromBox = transformOf(worldFromVolume);
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkUploadVolume(WlkContext context, WlkVolume volume, const WlkVolumeUpload* upload) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    VolumeState& state = c.volume(volume);
+    const WlkVolumeUpload u = copyStruct(upload, WLK_STRUCT_VOLUME_UPLOAD);
+    checkNoChain(upload);
+    checkUpload(state, u);
+    FieldState& field = state.fields[u.field];
+    vk::Device& device = c.requireDevice("wlkUploadVolume");
+    PendingUpload pending;
+    pending.volumeId = volume.id;
+    pending.field = u.field;
+    vk::Image image;
+    VkFormat format = u.format == WLK_FORMAT_R32_FLOAT ? VK_FORMAT_R32_SFLOAT
+                                                       : VK_FORMAT_R16_SFLOAT;
+    if (field.image) {
+      format = field.image.info().format;
+    } else {
+      vk::ImageInfo info;
+      info.type = VK_IMAGE_TYPE_3D;
+      info.format = format;
+      info.extent = {state.size[0], state.size[1], state.size[2]};
+      info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+      image = vk::Image(device, info);
+    }
+    const uint64_t texel = format == VK_FORMAT_R32_SFLOAT ? 4 : 2;
+    pending.staging = vk::Buffer(
+        device, texel * u.extent[0] * u.extent[1] * u.extent[2], VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+        true);
+    const float largest = convertVoxels(u, format == VK_FORMAT_R32_SFLOAT,
+                                        pending.staging.data());
+    pending.region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    pending.region.imageOffset = {static_cast<int32_t>(u.offset[0]),
+                                  static_cast<int32_t>(u.offset[1]),
+                                  static_cast<int32_t>(u.offset[2])};
+    pending.region.imageExtent = {u.extent[0], u.extent[1], u.extent[2]};
+    c.pending.push_back(std::move(pending));
+    // Nothing throws from here on.
+    if (image) {
+      field.image = std::move(image);
+    }
+    const bool whole = u.extent[0] == state.size[0] && u.extent[1] == state.size[1] &&
+                       u.extent[2] == state.size[2];
+    field.largest = whole ? largest : std::max(field.largest, largest);
+    return WLK_SUCCESS;
+  });
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Checks of what comes over the C boundary. Each throws Failure naming structure and field.
+#pragma once
+
+#include <welkin/welkin.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "failure.hpp"
+
+namespace welkin {
+
+// The first three fields of every structure.
+struct StructHeader {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+};
+
+const char* structName(uint32_t sType);
+
+void checkPointer(const void* pointer, const char* argument);
+
+// Pointer, sType and structSize of a structure; `size` is this library's sizeof.
+void checkHeader(const void* structure, uint32_t sType, uint32_t size);
+
+// As checkHeader for structures that are written: the caller's must be at least ours, and there is
+// no chain.
+void checkOutput(const void* structure, uint32_t sType, uint32_t size);
+
+// A copy of the caller's structure in this library's size; `next` must be null.
+template <typename T>
+T copyStruct(const T* structure, uint32_t sType) {
+  checkHeader(structure, sType, sizeof(T));
+  T copy{};
+  std::memcpy(&copy, structure, std::min<size_t>(structure->structSize, sizeof(T)));
+  return copy;
+}
+
+void checkNoChain(const void* structure);
+
+// NaN and infinities fail as out of range.
+void checkRange(uint32_t sType, const char* field, double value, double lo, double hi);
+void checkRange3(uint32_t sType, const char* field, const float (&value)[3], double lo, double hi);
+// A unit vector within 1e-3 of length 1.
+void checkUnit(uint32_t sType, const char* field, const float (&value)[3]);
+
+// 12 finite numbers whose 3x3 part is invertible.
+void checkTransform(uint32_t sType, const char* field, const double* matrix);
+
+}  // namespace welkin

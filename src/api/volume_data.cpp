@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "api/volume_data.hpp"
+
+#include <bit>
+#include <cmath>
+
+namespace welkin {
+namespace {
+
+constexpr float LARGEST_VALUE = 65504.0f;
+
+uint64_t bytesPerVoxel(uint32_t format) {
+  return format == WLK_FORMAT_R32_FLOAT ? 4 : (format == WLK_FORMAT_R16_FLOAT ? 2 : 1);
+}
+
+float clean(float x) {
+  return x > 0.0f ? (std::isinf(x) ? 0.0f : (x < LARGEST_VALUE ? x : LARGEST_VALUE)) : 0.0f;
+}
+
+float readVoxel(const unsigned char* p, uint32_t format) {
+  if (format == WLK_FORMAT_R32_FLOAT) {
+    float x = 0;
+    std::memcpy(&x, p, sizeof x);
+    return clean(x);
+  }
+  if (format == WLK_FORMAT_R16_FLOAT) {
+    uint16_t x = 0;
+    std::memcpy(&x, p, sizeof x);
+    return clean(floatFromHalf(x));
+  }
+  return static_cast<float>(*p) / 255.0f;
+}
+
+// a * b + c, or fails: pitches come from outside.
+uint64_t checkedSum(uint64_t a, uint64_t b, uint64_t c) {
+  uint64_t product = 0;
+  uint64_t sum = 0;
+  if (__builtin_mul_overflow(a, b, &product) || __builtin_add_overflow(product, c, &sum)) {
+    fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_VOLUME_UPLOAD, "slicePitch",
+         "WlkVolumeUpload: the pitches overflow");
+  }
+  return sum;
+}
+
+}  // namespace
+
+Medium checkedMedium(const WlkMediumInfo* info) {
+  const WlkMediumInfo m = copyStruct(info, WLK_STRUCT_MEDIUM_INFO);
+  checkNoChain(info);
+  checkRange(m.sType, "phase", m.phase, WLK_PHASE_HG_DRAINE, WLK_PHASE_RAYLEIGH);
+  if (m.phase == WLK_PHASE_HG_DRAINE) {
+    checkRange(m.sType, "dropletDiameter_um", m.dropletDiameter_um, 5, 50);
+  }
+  if (m.phase == WLK_PHASE_HENYEY_GREENSTEIN) {
+    checkRange(m.sType, "asymmetry", m.asymmetry, -0.999f, 0.999f);
+  }
+  checkRange3(m.sType, "singleScatteringAlbedo", m.singleScatteringAlbedo, 0, 1);
+  const double albedo[3] = {m.singleScatteringAlbedo[0], m.singleScatteringAlbedo[1],
+                            m.singleScatteringAlbedo[2]};
+  return makeMedium(static_cast<PhaseKind>(m.phase), m.dropletDiameter_um, m.asymmetry, albedo);
+}
+
+void checkUpload(const VolumeState& volume, const WlkVolumeUpload& u) {
+  checkRange(u.sType, "field", u.field, 0, volume.fieldCount - 1);
+  if (u.format < WLK_FORMAT_R32_FLOAT || u.format > WLK_FORMAT_R8_UNORM) {
+    fail(WLK_ERROR_UNSUPPORTED_FORMAT, u.sType, "format", "WlkVolumeUpload::format is %u",
+         u.format);
+  }
+  for (uint32_t i = 0; i < 3; ++i) {
+    if (u.extent[i] < 1 || u.offset[i] > volume.size[i] ||
+        u.extent[i] > volume.size[i] - u.offset[i]) {
+      fail(WLK_ERROR_INVALID_ARGUMENT, u.sType, "extent",
+           "WlkVolumeUpload: voxels [%u, %u + %u) of axis %u lie outside the volume's %u",
+           u.offset[i], u.offset[i], u.extent[i], i, volume.size[i]);
+    }
+  }
+  checkPointer(u.data, "data");
+  const uint64_t row = bytesPerVoxel(u.format) * u.extent[0];
+  const uint64_t rowPitch = u.rowPitch == 0 ? row : u.rowPitch;
+  if (rowPitch < row) {
+    fail(WLK_ERROR_INVALID_ARGUMENT, u.sType, "rowPitch",
+         "WlkVolumeUpload::rowPitch is %llu, a row has %llu bytes",
+         static_cast<unsigned long long>(rowPitch), static_cast<unsigned long long>(row));
+  }
+  const uint64_t plane = checkedSum(rowPitch, u.extent[1] - 1, row);
+  const uint64_t slicePitch =
+      u.slicePitch == 0 ? checkedSum(rowPitch, u.extent[1], 0) : u.slicePitch;
+  if (slicePitch < plane) {
+    fail(WLK_ERROR_INVALID_ARGUMENT, u.sType, "slicePitch",
+         "WlkVolumeUpload::slicePitch is %llu, a slice has %llu bytes",
+         static_cast<unsigned long long>(slicePitch), static_cast<unsigned long long>(plane));
+  }
+  const uint64_t needed = checkedSum(slicePitch, u.extent[2] - 1, plane);
+  if (u.dataSize < needed) {
+    fail(WLK_ERROR_INVALID_ARGUMENT, u.sType, "dataSize",
+         "WlkVolumeUpload::dataSize is %llu, the voxels need %llu",
+         static_cast<unsigned long long>(u.dataSize), static_cast<unsigned long long>(needed));
+  }
+}
+
+uint16_t halfFromFloat(float value) {
+  const uint32_t bits = std::bit_cast<uint32_t>(value);
+  const int exponent = static_cast<int>(bits >> 23) - 127;
+  if (exponent < -25) {
+    return 0;
+  }
+  const uint32_t mantissa = (bits & 0x7fffffu) | 0x800000u;
+  // Normal: keep 11 bits; subnormal: fewer. Round to nearest, ties to even.
+  const int shift = exponent >= -14 ? 13 : 13 + (-14 - exponent);
+  const uint32_t kept = mantissa >> shift;
+  const uint32_t rest = mantissa & ((1u << shift) - 1);
+  const uint32_t middle = 1u << (shift - 1);
+  const uint32_t rounded = kept + (rest > middle || (rest == middle && (kept & 1u) != 0) ? 1 : 0);
+  const uint32_t base = exponent >= -14 ? static_cast<uint32_t>(exponent + 14) << 10 : 0;
+  return static_cast<uint16_t>(base + rounded);
+}
+
+float floatFromHalf(uint16_t bits) {
+  const uint32_t exponent = bits >> 10 & 0x1fu;
+  const uint32_t mantissa = bits & 0x3ffu;
+  float value = 0;
+  if (exponent == 31) {
+    value = mantissa == 0 ? INFINITY : NAN;
+  } else if (exponent == 0) {
+    value = std::ldexp(static_cast<float>(mantissa), -24);
+  } else {
+    value = std::ldexp(static_cast<float>(mantissa | 0x400u), static_cast<int>(exponent) - 25);
+  }
+  return (bits & 0x8000u) != 0 ? -value : value;
+}
+
+float convertVoxels(const WlkVolumeUpload& u, bool toFloat, void* out) {
+  const uint64_t voxel = bytesPerVoxel(u.format);
+  const uint64_t rowPitch = u.rowPitch == 0 ? voxel * u.extent[0] : u.rowPitch;
+  const uint64_t slicePitch = u.slicePitch == 0 ? rowPitch * u.extent[1] : u.slicePitch;
+  float largest = 0;
+  auto* to = static_cast<unsigned char*>(out);
+  for (uint32_t z = 0; z < u.extent[2]; ++z) {
+    for (uint32_t y = 0; y < u.extent[1]; ++y) {
+      const auto* from =
+          static_cast<const unsigned char*>(u.data) + z * slicePitch + y * rowPitch;
+      for (uint32_t x = 0; x < u.extent[0]; ++x, from += voxel) {
+        const float value = readVoxel(from, u.format);
+        largest = value > largest ? value : largest;
+        if (toFloat) {
+          std::memcpy(to, &value, sizeof value);
+          to += sizeof value;
+        } else {
+          const uint16_t half = halfFromFloat(value);
+          std::memcpy(to, &half, sizeof half);
+          to += sizeof half;
+        }
+      }
+    }
+  }
+  return largest;
+}
+
+}  // namespace welkin

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// The engine's device: requirements, its images, recording into its command buffers.
+#include <welkin/welkin_vulkan.h>
+
+#include "api/context.hpp"
+
+namespace {
+
+using namespace welkin;
+
+VkImageAspectFlags depthAspects(VkFormat format) {
+  switch (format) {
+    case VK_FORMAT_D16_UNORM:
+    case VK_FORMAT_D32_SFLOAT:
+    case VK_FORMAT_X8_D24_UNORM_PACK32:
+      return VK_IMAGE_ASPECT_DEPTH_BIT;
+    case VK_FORMAT_D24_UNORM_S8_UINT:
+    case VK_FORMAT_D32_SFLOAT_S8_UINT:
+      return VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
+    case VK_FORMAT_R32_SFLOAT:
+      return VK_IMAGE_ASPECT_COLOR_BIT;
+    default:
+      return 0;
+  }
+}
+
+WlkVulkanImage checkedImage(const WlkVulkanImage* image, const char* role, uint32_t width,
+                            uint32_t height) {
+  const WlkVulkanImage i = copyStruct(image, WLK_STRUCT_VULKAN_IMAGE);
+  checkNoChain(image);
+  if (i.image == VK_NULL_HANDLE) {
+    fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, role, "WlkVulkanImage::image of %s is null", role);
+  }
+  if (i.width != width || i.height != height) {
+    fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, role, "%s has %u x %u pixels, the view %u x %u",
+         role, i.width, i.height, width, height);
+  }
+  if (i.after.layout == VK_IMAGE_LAYOUT_UNDEFINED ||
+      i.after.layout == VK_IMAGE_LAYOUT_PREINITIALIZED) {
+    fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, role, "%s: after.layout must be a real layout", role);
+  }
+  return i;
+}
+
+TargetImage importTarget(WlkContext_T& c, const WlkVulkanImage& image, VkImageAspectFlags read,
+                         VkImageAspectFlags barrier) {
+  TargetImage target;
+  target.image = image.image;
+  target.view = importView(c, image, VK_IMAGE_VIEW_TYPE_2D, read);
+  target.barrierAspect = barrier;
+  target.before = image.before;
+  target.after = image.after;
+  return target;
+}
+
+TargetImage colorTarget(WlkContext_T& c, const WlkVulkanImage* image, const char* role,
+                        const ViewState& view, bool formatMatters) {
+  if (image == nullptr) {
+    fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_VULKAN_VIEW_TARGETS, role,
+         "WlkVulkanViewTargets::%s is null", role);
+  }
+  const WlkVulkanImage value = checkedImage(image, role, view.info.width, view.info.height);
+  if (formatMatters && value.format != targetFormat(view.info.targetFormat)) {
+    fail(WLK_ERROR_UNSUPPORTED_FORMAT, WLK_STRUCT_VULKAN_IMAGE, role,
+         "%s has VkFormat %d, WlkViewInfo::targetFormat asks for %d", role,
+         static_cast<int>(value.format),
+         static_cast<int>(targetFormat(view.info.targetFormat)));
+  }
+  return importTarget(c, value, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
+}
+
+ViewTargets importTargets(WlkContext_T& c, const ViewState& view, const WlkVulkanViewTargets& t) {
+  ViewTargets targets;
+  if (t.depth != nullptr) {
+    const WlkVulkanImage depth =
+        checkedImage(t.depth, "depth", view.info.width, view.info.height);
+    const VkImageAspectFlags aspects = depthAspects(depth.format);
+    if (aspects == 0) {
+      fail(WLK_ERROR_UNSUPPORTED_FORMAT, WLK_STRUCT_VULKAN_IMAGE, "depth",
+           "depth has VkFormat %d, which is no depth format Welkin reads",
+           static_cast<int>(depth.format));
+    }
+    targets.depth = importTarget(c, depth, aspects & ~VkImageAspectFlags{VK_IMAGE_ASPECT_STENCIL_BIT}, aspects);
+  }
+  if (view.info.composite == WLK_COMPOSITE_SEPARATE) {
+    targets.target0 = colorTarget(c, t.radiance, "radiance", view, true);
+    targets.target1 = colorTarget(c, t.transmittance, "transmittance", view, true);
+    return targets;
+  }
+  targets.target0 = colorTarget(c, t.color, "color", view, true);
+  if (view.info.composite == WLK_COMPOSITE_COMPUTE && t.colorInput != nullptr) {
+    if (t.colorInput->image == t.color->image) {
+      targets.inputIsTarget = true;
+    } else {
+      targets.colorInput = colorTarget(c, t.colorInput, "colorInput", view, false);
+    }
+  }
+  return targets;
+}
+
+WlkContext_T& requireFrame(WlkContext context, VkCommandBuffer commands, const char* what) {
+  WlkContext_T& c = checkContext(context);
+  c.requireDevice(what);
+  checkPointer(commands, "commandBuffer");
+  if (c.mode != WLK_MODE_ENGINE_DEVICE || c.frameIndex == 0) {
+    fail(WLK_ERROR_WRONG_STATE, 0, "context", "%s needs an engine-device context and wlkBeginFrame",
+         what);
+  }
+  return c;
+}
+
+}  // namespace
+
+namespace welkin {
+
+VkImageView importView(WlkContext_T& c, const WlkVulkanImage& image, VkImageViewType type,
+                       VkImageAspectFlags aspect) {
+  for (const ImportedView& known : c.imported) {
+    if (known.image == image.image && known.type == type && known.format == image.format) {
+      return known.view;
+    }
+  }
+  c.imported.reserve(c.imported.size() + 1);
+  const VkImageView view = vk::createView(*c.device, image.image, image.format, type, aspect, 1);
+  c.imported.push_back({image.image, type, image.format, view});
+  return view;
+}
+
+}  // namespace welkin
+
+WlkResult wlkVulkanGetRequirements(WlkVulkanRequirements* requirements) {
+  return guarded([&] {
+    checkOutput(requirements, WLK_STRUCT_VULKAN_REQUIREMENTS, sizeof *requirements);
+    requirements->apiVersion = VK_API_VERSION_1_3;
+    requirements->queueFlags = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    requirements->synchronization2 = 1;
+    requirements->dynamicRendering = 1;
+    requirements->shaderStorageImageWriteWithoutFormat = 1;
+    requirements->dualSrcBlend = 1;
+    requirements->depthUsage = VK_IMAGE_USAGE_SAMPLED_BIT;
+    requirements->colorInputUsage = VK_IMAGE_USAGE_SAMPLED_BIT;
+    requirements->storageTargetUsage = VK_IMAGE_USAGE_STORAGE_BIT;
+    requirements->blendTargetUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    requirements->volumeUsage = VK_IMAGE_USAGE_SAMPLED_BIT;
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkVulkanSetVolumeImage(WlkContext context, WlkVolume volume, uint32_t field,
+                                  const WlkVulkanImage* image) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    VolumeState& state = c.volume(volume);
+    checkRange(WLK_STRUCT_VULKAN_IMAGE, "field", field, 0, state.fieldCount - 1);
+    if (image == nullptr) {
+      state.fields[field].external.reset();
+      return WLK_SUCCESS;
+    }
+    const WlkVulkanImage i = checkedImage(image, "volume image", state.size[0], state.size[1]);
+    if (i.depth != state.size[2]) {
+      fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, "depth",
+           "WlkVulkanImage::depth is %u, the volume has %u voxels along z", i.depth,
+           state.size[2]);
+    }
+    if (i.format != VK_FORMAT_R16_SFLOAT && i.format != VK_FORMAT_R32_SFLOAT &&
+        i.format != VK_FORMAT_R16_UNORM && i.format != VK_FORMAT_R8_UNORM) {
+      fail(WLK_ERROR_UNSUPPORTED_FORMAT, i.sType, "format",
+           "volume images have R16_SFLOAT, R32_SFLOAT, R16_UNORM or R8_UNORM, not VkFormat %d",
+           static_cast<int>(i.format));
+    }
+    if (i.before.layout != VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL ||
+        i.after.layout != VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) {
+      fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, "before",
+           "a volume image stays in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL");
+    }
+    importView(c, i, VK_IMAGE_VIEW_TYPE_3D, VK_IMAGE_ASPECT_COLOR_BIT);
+    state.fields[field].external = i;
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkVulkanForgetImage(WlkContext context, VkImage image) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    vk::Device& device = c.requireDevice("wlkVulkanForgetImage");
+    for (uint32_t i = 0; i < c.volumes.slotCount(); ++i) {
+      if (VolumeState* volume = c.volumes.at(i)) {
+        for (FieldState& field : volume->fields) {
+          if (field.external && field.external->image == image) {
+            field.external.reset();
+          }
+        }
+      }
+    }
+    for (size_t i = 0; i < c.imported.size();) {
+      if (c.imported[i].image == image) {
+        device.vk().DestroyImageView(device.handle(), c.imported[i].view, nullptr);
+        c.imported[i] = c.imported.back();
+        c.imported.pop_back();
+      } else {
+        ++i;
+      }
+    }
+    c.forgetBindings();
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkVulkanCmdUpdate(WlkContext context, VkCommandBuffer commandBuffer) {
+  return guarded([&] {
+    WlkContext_T& c = requireFrame(context, commandBuffer, "wlkVulkanCmdUpdate");
+    recordUpdate(c, commandBuffer);
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkVulkanCmdRenderView(WlkContext context, VkCommandBuffer commandBuffer, WlkView view,
+                                 const WlkVulkanViewTargets* targets) {
+  return guarded([&] {
+    WlkContext_T& c = requireFrame(context, commandBuffer, "wlkVulkanCmdRenderView");
+    ViewState& state = c.view(view);
+    const WlkVulkanViewTargets t = copyStruct(targets, WLK_STRUCT_VULKAN_VIEW_TARGETS);
+    checkNoChain(targets);
+    if (!state.prepared) {
+      fail(WLK_ERROR_NOT_PREPARED, 0, "view", "call wlkPrepare before recording");
+    }
+    if (state.lastFrame == c.frameIndex) {
+      fail(WLK_ERROR_WRONG_STATE, 0, "view", "the view was recorded in this frame already");
+    }
+    if (c.dummy2d.layout == VK_IMAGE_LAYOUT_UNDEFINED) {
+      fail(WLK_ERROR_WRONG_STATE, 0, "context", "record wlkVulkanCmdUpdate before the views");
+    }
+    const ViewTargets images = importTargets(c, state, t);
+    recordFrame(c, commandBuffer, state, images);
+    return WLK_SUCCESS;
+  });
+}

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+#include "frame/plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "model/model.hpp"
+
+namespace welkin {
+namespace {
+
+// Air above this altitude scatters less than 4e-6 of sea level (scale height 8 km): a light that
+// does not reach it lights nothing.
+constexpr double AIR_TOP = 100e3;
+
+// Whether a light with zenith cosine `mu` at altitude `h` stands, with its disk, above the horizon.
+bool aboveHorizon(double mu, double h, double radius, double angularRadius) {
+  const double dip = std::acos(radius / (radius + std::max(h, 0.0)));
+  return std::asin(std::clamp(mu, -1.0, 1.0)) + angularRadius > -dip;
+}
+
+std::array<glm::dvec3, 8> cornersOf(const glm::dmat4x3& box) {
+  std::array<glm::dvec3, 8> corners;
+  for (int i = 0; i < 8; ++i) {
+    corners[static_cast<size_t>(i)] = box * glm::dvec4(i & 1, i >> 1 & 1, i >> 2 & 1, 1);
+  }
+  return corners;
+}
+
+// Pixels that the box may cover: its edges clipped to the half space in front of the eye.
+PixelRect coverOf(const std::array<glm::dvec3, 8>& corners, const PlanInput& in) {
+  constexpr double NEAR_W = 1e-4;  // clip-space w; the eye is at 0
+  glm::dvec2 lo(1e300);
+  glm::dvec2 hi(-1e300);
+  const auto add = [&](const glm::dvec4& p) {
+    const glm::dvec2 ndc = glm::dvec2(p.x, p.y) / p.w;
+    lo = glm::min(lo, ndc);
+    hi = glm::max(hi, ndc);
+  };
+  std::array<glm::dvec4, 8> clip;
+  for (size_t i = 0; i < 8; ++i) {
+    clip[i] = in.clipFromEye * glm::dvec4(corners[i], 1.0);
+    if (clip[i].w > NEAR_W) {
+      add(clip[i]);
+    }
+  }
+  for (size_t i = 0; i < 8; ++i) {
+    for (size_t axis = 1; axis < 8; axis <<= 1) {
+      const size_t j = i | axis;
+      if (j != i && (clip[i].w > NEAR_W) != (clip[j].w > NEAR_W)) {
+        const double t = (NEAR_W - clip[i].w) / (clip[j].w - clip[i].w);
+        glm::dvec4 p = clip[i] + (clip[j] - clip[i]) * t;
+        p.w = NEAR_W;
+        add(p);
+      }
+    }
+  }
+  PixelRect rect;
+  if (!(lo.x <= hi.x)) {
+    return rect;
+  }
+  const glm::dvec2 size(in.width, in.height);
+  const glm::dvec2 a = glm::clamp((lo * 0.5 + 0.5) * size - 1.0, glm::dvec2(0), size);
+  const glm::dvec2 b = glm::clamp((hi * 0.5 + 0.5) * size + 1.0, glm::dvec2(0), size);
+  rect.x0 = static_cast<uint32_t>(std::floor(a.x));
+  rect.y0 = static_cast<uint32_t>(std::floor(a.y));
+  rect.x1 = static_cast<uint32_t>(std::ceil(b.x));
+  rect.y1 = static_cast<uint32_t>(std::ceil(b.y));
+  if (hi.x < -1 || hi.y < -1 || lo.x > 1 || lo.y > 1) {
+    rect = {};
+  }
+  return rect;
+}
+
+bool contains(const glm::dmat4x3& box, const glm::dvec3& point) {
+  const glm::dmat3 linear(box);
+  const glm::dvec3 local = glm::inverse(linear) * (point - box[3]);
+  return glm::all(glm::greaterThanEqual(local, glm::dvec3(0))) &&
+         glm::all(glm::lessThanEqual(local, glm::dvec3(1)));
+}
+
+// Distance from the eye (the origin) to the box's nearest point, along its axes.
+double distanceTo(const glm::dmat4x3& box) {
+  const glm::dmat3 linear(box);
+  const glm::dvec3 local = glm::clamp(glm::inverse(linear) * -box[3], 0.0, 1.0);
+  return glm::length(box * glm::dvec4(local, 1.0));
+}
+
+PixelRect unite(const PixelRect& a, const PixelRect& b) {
+  if (a.empty()) {
+    return b;
+  }
+  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
+PlannedVolume planVolume(const PlanInput& in, const PlanVolume& volume) {
+  PlannedVolume result{};
+  result.id = volume.id;
+  result.index = volume.index;
+  glm::dmat4x3 box = volume.worldFromBox;
+  box[3] -= in.eye;
+  const std::array<glm::dvec3, 8> corners = cornersOf(box);
+  result.rect = contains(box, glm::dvec3(0)) ? PixelRect{0, 0, in.width, in.height}
+                                             : coverOf(corners, in);
+  result.distance = distanceTo(box);
+  uint32_t reason = WLK_REASON_NEEDED;
+  if ((in.layers & WLK_LAYER_VOLUMES) == 0) {
+    reason = WLK_REASON_LAYER_OFF;
+  } else if (!volume.anyDensity) {
+    reason = WLK_REASON_ZERO_DENSITY;
+  } else if (result.rect.empty()) {
+    reason = WLK_REASON_OUTSIDE_VIEW;
+  }
+  if (reason != WLK_REASON_NEEDED && reason != WLK_REASON_LAYER_OFF && in.quality.noSkip) {
+    reason = WLK_REASON_NO_SKIP_FLAG;
+    result.rect = {0, 0, in.width, in.height};
+  }
+  result.drawn = reason == WLK_REASON_NEEDED || reason == WLK_REASON_NO_SKIP_FLAG;
+  result.eyeReason = reason;
+  result.lightReason = reason;
+  if (!result.drawn) {
+    return result;
+  }
+  double top = -1e300;
+  for (const glm::dvec3& corner : corners) {
+    top = std::max(top, planetFrameAt(in.planet, corner + in.eye).altitude);
+  }
+  const glm::dvec3 middle = box * glm::dvec4(0.5, 0.5, 0.5, 1.0);
+  const PlanetFrame frame = planetFrameAt(in.planet, middle + in.eye);
+  result.lit = in.light && (aboveHorizon(glm::dot(frame.up, in.toLight), top, in.planet.radius,
+                                         in.lightAngularRadius));
+  if (!result.lit) {
+    if (in.quality.noSkip && in.light) {
+      result.lit = true;
+      result.lightReason = WLK_REASON_NO_SKIP_FLAG;
+    } else {
+      result.lightReason = WLK_REASON_NO_LIGHT;
+    }
+  }
+  const glm::dvec3 view = glm::length(middle) > 0 ? glm::normalize(middle) : glm::dvec3(0, 0, -1);
+  result.layout = layoutSlices(box, in.toLight, view, in.quality);
+  return result;
+}
+
+}  // namespace
+
+SliceQuality resolveQuality(const WlkQuality& quality) {
+  constexpr std::array<SliceQuality, 4> LEVELS{{{32, 32, 96, false, true, false},
+                                                {64, 64, 160, false, true, false},
+                                                {128, 64, 256, false, true, false},
+                                                {256, 64, 448, false, true, false}}};
+  SliceQuality result = LEVELS[quality.level];
+  if (quality.sliceCount != 0) {
+    result.sliceCount = quality.sliceCount;
+  }
+  result.batchSize = quality.batchSize != 0 ? quality.batchSize : result.batchSize;
+  result.batchSize = std::min(result.batchSize, result.sliceCount);
+  if (quality.lightBufferSize != 0) {
+    result.lightSize = quality.lightBufferSize;
+  }
+  result.halfAngle = quality.slicing == WLK_SLICING_HALF_ANGLE;
+  result.forwardScattering = quality.scattering != WLK_SCATTERING_SINGLE;
+  result.noSkip = (quality.flags & WLK_QUALITY_NO_SKIP) != 0;
+  return result;
+}
+
+PlanetFrame planetFrameAt(const WlkPlanet& planet, const glm::dvec3& point) {
+  const glm::dvec3 up = glm::normalize(glm::dvec3(planet.up[0], planet.up[1], planet.up[2]));
+  const glm::dvec3 p = point - glm::dvec3(planet.seaLevelPoint[0], planet.seaLevelPoint[1],
+                                          planet.seaLevelPoint[2]);
+  const double radius = planet.radius;
+  const double vertical = glm::dot(p, up);
+  // |p + R up| - R without cancellation: q / (sqrt(R^2 + q) + R), q = |p|^2 + 2 R p.up.
+  const double q = glm::dot(p, p) + 2.0 * radius * vertical;
+  PlanetFrame frame;
+  frame.altitude = q / (std::sqrt(std::max(radius * radius + q, 0.0)) + radius);
+  const glm::dvec3 centreTo = p + radius * up;
+  const double length = glm::length(centreTo);
+  frame.up = length > 0 ? centreTo / length : up;
+  return frame;
+}
+
+SliceLayout layoutSlices(const glm::dmat4x3& box, const glm::dvec3& toLight, const glm::dvec3& view,
+                         const SliceQuality& quality) {
+  namespace model = model::f64;
+  SliceLayout s{};
+  const glm::dvec3 travel = -toLight;
+  s.axis = quality.halfAngle ? model::halfAngleAxis(travel, view) : travel;
+  // Light-buffer axes across the light, tied to the box so that they turn only with the light.
+  glm::dvec3 side = box[0];
+  for (int i = 1; i < 3; ++i) {
+    const glm::dvec3 other = box[i];
+    if (std::abs(glm::dot(glm::normalize(other), travel)) <
+        std::abs(glm::dot(glm::normalize(side), travel))) {
+      side = other;
+    }
+  }
+  const glm::dvec3 u = glm::normalize(side - travel * glm::dot(side, travel));
+  const glm::dvec3 v = glm::cross(travel, u);
+
+  const glm::dvec3 centre = box * glm::dvec4(0.5, 0.5, 0.5, 1.0);
+  glm::dvec3 reach(0);  // half extents of the box along axis, u, v
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec3 edge = box[i];
+    reach += 0.5 * glm::abs(glm::dvec3(glm::dot(edge, s.axis), glm::dot(edge, u),
+                                       glm::dot(edge, v)));
+  }
+  const double count = quality.sliceCount;
+  s.slabThickness = 2.0 * reach.x / count;
+  s.plane = glm::dvec4(s.axis / s.slabThickness,
+                       0.5 * count - glm::dot(centre, s.axis) / s.slabThickness);
+  // One texel of margin, so that linear filtering at the silhouette stays inside the buffer.
+  const double margin = quality.lightSize / (quality.lightSize - 2.0);
+  const double width = 2.0 * reach.y * margin;
+  const double height = 2.0 * reach.z * margin;
+  s.lightU = glm::dvec4(u / width, 0.5 - glm::dot(centre, u) / width);
+  s.lightV = glm::dvec4(v / height, 0.5 - glm::dot(centre, v) / height);
+
+  // A light ray through (u, v) meets plane c at foot + travel * (d(c) - foot.axis) / travel.axis.
+  const double slope = glm::dot(travel, s.axis);
+  const auto onPlane = [&](const glm::dvec3& p) {
+    return p - travel * (glm::dot(p, s.axis) / slope);
+  };
+  s.texelU = onPlane(u * width);
+  s.texelV = onPlane(v * height);
+  s.texelC = travel * (s.slabThickness / slope);
+  s.texelOrigin = centre - 0.5 * s.texelU - 0.5 * s.texelV - 0.5 * count * s.texelC;
+  s.lightPath = s.slabThickness / slope;
+  return s;
+}
+
+void makePlan(const PlanInput& in, Plan& plan) {
+  plan.volumes.clear();
+  plan.drawnCount = 0;
+  plan.volumeRect = {};
+  for (const PlanVolume& volume : in.volumes) {
+    plan.volumes.push_back(planVolume(in, volume));
+  }
+  std::sort(plan.volumes.begin(), plan.volumes.end(),
+            [](const PlannedVolume& a, const PlannedVolume& b) {
+              if (a.drawn != b.drawn) {
+                return a.drawn;
+              }
+              return a.distance != b.distance ? a.distance < b.distance : a.index < b.index;
+            });
+  for (const PlannedVolume& volume : plan.volumes) {
+    if (volume.drawn) {
+      ++plan.drawnCount;
+      plan.volumeRect = unite(plan.volumeRect, volume.rect);
+    }
+  }
+  plan.air = in.sky && (in.layers & WLK_LAYER_SKY) != 0;
+  plan.fog = in.fog && (in.layers & WLK_LAYER_FOG) != 0;
+  const PlanetFrame eye = planetFrameAt(in.planet, in.eye);
+  plan.light = in.light && (in.quality.noSkip ||
+                            aboveHorizon(glm::dot(eye.up, in.toLight),
+                                         std::max(eye.altitude, AIR_TOP), in.planet.radius,
+                                         in.lightAngularRadius));
+  plan.disk = plan.air && in.light && (in.layers & WLK_LAYER_SUN_DISK) != 0 &&
+              in.lightAngularRadius > 0;
+  plan.ground = plan.air && (in.layers & WLK_LAYER_GROUND) != 0;
+  const bool something = plan.air || plan.fog || plan.drawnCount > 0;
+  plan.composite = something || in.mustWrite || in.quality.noSkip;
+  plan.compositeReason = something || in.mustWrite
+                             ? WLK_REASON_NEEDED
+                             : (in.quality.noSkip ? WLK_REASON_NO_SKIP_FLAG
+                                                  : WLK_REASON_NOTHING_TO_DRAW);
+}
+
+}  // namespace welkin

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// The plan of a view's frame: which passes run over what, which are skipped and why. Pure data,
+// computed on the CPU from the scene; record.cpp turns it into commands, the statistics return it.
+#pragma once
+
+#include <welkin/welkin.h>
+
+#include <glm/glm.hpp>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace welkin {
+
+// Sizes and methods that a quality level or its overrides stand for.
+struct SliceQuality {
+  uint32_t sliceCount;
+  uint32_t batchSize;
+  uint32_t lightSize;
+  bool halfAngle;
+  bool forwardScattering;
+  bool noSkip;
+};
+SliceQuality resolveQuality(const WlkQuality& quality);
+
+// A frame on the planet's surface: doubles, because altitudes are small beside the radius.
+struct PlanetFrame {
+  glm::dvec3 up{0, 1, 0};  // away from the planet's centre at the point asked for
+  double altitude = 0;     // of that point, m
+};
+PlanetFrame planetFrameAt(const WlkPlanet& planet, const glm::dvec3& point);
+
+// Slabs through a volume and the light buffer beside them, all relative to the eye, in m.
+struct SliceLayout {
+  glm::dvec3 axis;          // slabs lie across it; it runs with the light
+  double slabThickness;
+  glm::dvec4 plane;         // plane coordinate = dot(p, xyz) + w
+  glm::dvec4 lightU;        // light-buffer coordinates likewise
+  glm::dvec4 lightV;
+  glm::dvec3 texelOrigin;   // point on the light ray (u, v) at plane coordinate c:
+  glm::dvec3 texelU;        //   origin + u U + v V + c C
+  glm::dvec3 texelV;
+  glm::dvec3 texelC;
+  double lightPath;         // length of a light ray inside a slab
+};
+// `box` maps the unit box to positions relative to the eye, `view` is the direction from the eye
+// to the box (half-angle only).
+SliceLayout layoutSlices(const glm::dmat4x3& box, const glm::dvec3& toLight, const glm::dvec3& view,
+                         const SliceQuality& quality);
+
+struct PixelRect {
+  uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  bool empty() const { return x1 <= x0 || y1 <= y0; }
+};
+
+struct PlanVolume {
+  uint64_t id = 0;
+  uint32_t index = 0;        // place in the context's list
+  glm::dmat4x3 worldFromBox{1.0};
+  bool anyDensity = true;
+};
+
+struct PlanInput {
+  uint64_t layers = 0;
+  bool sky = false;
+  bool fog = false;
+  bool light = false;          // a light with irradiance is set
+  bool mustWrite = false;      // the targets need a value even if nothing is drawn
+  WlkPlanet planet{};
+  glm::dvec3 toLight{0, 1, 0};
+  double lightAngularRadius = 0;
+  glm::dvec3 eye{0};
+  glm::dmat4 clipFromEye{1.0};  // position relative to the eye, world orientation, to clip space
+  uint32_t width = 0;
+  uint32_t height = 0;
+  SliceQuality quality{};
+  std::span<const PlanVolume> volumes;
+};
+
+struct PlannedVolume {
+  uint64_t id;
+  uint32_t index;
+  bool drawn;
+  bool lit;
+  uint32_t lightReason;
+  uint32_t eyeReason;
+  double distance;
+  PixelRect rect;
+  SliceLayout layout;
+};
+
+struct Plan {
+  explicit Plan(std::pmr::memory_resource* memory) : volumes(memory) {}
+  std::pmr::vector<PlannedVolume> volumes;  // drawn ones first, nearest first
+  uint32_t drawnCount = 0;
+  PixelRect volumeRect;                     // union of the drawn ones
+  bool air = false;
+  bool fog = false;
+  bool light = false;                       // the light reaches air, fog or ground
+  bool disk = false;
+  bool ground = false;
+  bool composite = false;
+  uint32_t compositeReason = WLK_REASON_NEEDED;
+};
+
+// Fills `plan`; allocates only if there are more volumes than plan.volumes has room for.
+void makePlan(const PlanInput& input, Plan& plan);
+
+}  // namespace welkin

@@ -1,0 +1,524 @@
+// SPDX-License-Identifier: MIT
+#include "frame/record.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "failure.hpp"
+#include "frame/resources.hpp"
+
+namespace welkin {
+namespace {
+
+using interface_::FrameUniforms;
+using interface_::SliceConstants;
+using interface_::VolumeUniforms;
+
+constexpr VkPipelineStageFlags2 COMPUTE = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+constexpr VkAccessFlags2 SHADER_ACCESS = VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
+                                         VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+                                         VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+constexpr WlkVulkanImageState GENERAL_STATE{VK_IMAGE_LAYOUT_GENERAL, 0, COMPUTE, SHADER_ACCESS};
+
+template <typename Handle>
+uint64_t bits(Handle handle) {
+  return reinterpret_cast<uint64_t>(handle);
+}
+
+uint32_t groups(uint32_t pixels) {
+  return (pixels + 7) / 8;
+}
+
+class Recorder {
+ public:
+  Recorder(vk::Device& device, const vk::Pipelines& pipelines, VkCommandBuffer commands,
+           ViewState& view, const RecordInput& input, const ViewTargets& targets)
+      : device_(device),
+        vk_(device.vk()),
+        pipelines_(pipelines),
+        commands_(commands),
+        view_(view),
+        in_(input),
+        targets_(targets),
+        slot_(view.resources.slots[input.slot]),
+        quality_(resolveQuality(view.quality)) {}
+
+  void run() {
+    findPipelines();
+    start();
+    acquireTargets();
+    for (const PlannedVolume& volume : view_.plan.volumes) {
+      recordVolume(volume);
+    }
+    recordComposite();
+    releaseTargets();
+    slot_.frameIndex = in_.frameIndex;
+    slot_.harvested = !anything_;
+    view_.lastFrame = in_.frameIndex;
+  }
+
+ private:
+  const RecordVolume& volumeOf(const PlannedVolume& planned) const {
+    return in_.volumes[planned.index];
+  }
+
+  vk::PipelineKey eyeKeyOf(const PlannedVolume& planned) const {
+    const Plan& plan = view_.plan;
+    return eyeKey(plan.air, plan.fog, planned.lit, volumeOf(planned).state->fieldCount,
+                  quality_.forwardScattering, static_cast<bool>(targets_.depth));
+  }
+
+  VkPipeline find(const vk::PipelineKey& key) const {
+    const VkPipeline pipeline = pipelines_.find(key);
+    if (pipeline == VK_NULL_HANDLE) {
+      fail(WLK_ERROR_NOT_PREPARED, 0, "",
+           "the scene changed in a way that needs wlkPrepare before recording");
+    }
+    return pipeline;
+  }
+
+  // Looks everything up first: a failure records nothing.
+  void findPipelines() {
+    const Plan& plan = view_.plan;
+    for (const PlannedVolume& volume : plan.volumes) {
+      if (volume.drawn) {
+        find(eyeKeyOf(volume));
+        find(lightKey(volumeOf(volume).state->fieldCount, quality_.forwardScattering));
+      }
+    }
+    if (plan.composite) {
+      CompositeVariant v{};
+      v.air = plan.air;
+      v.fog = plan.fog;
+      v.light = plan.light;
+      v.volumes = plan.drawnCount > 0;
+      v.depth = static_cast<bool>(targets_.depth);
+      v.disk = plan.disk;
+      v.ground = plan.ground;
+      v.colorInput = view_.info.composite == WLK_COMPOSITE_COMPUTE &&
+                     (targets_.inputIsTarget || targets_.colorInput);
+      // Variants are prepared for a layer as a whole; a light without a disk keeps the disk off.
+      vk::PipelineKey key = compositeKey(view_.info, v);
+      if (pipelines_.find(key) == VK_NULL_HANDLE && v.light && !v.disk) {
+        v.disk = true;
+        key = compositeKey(view_.info, v);
+      }
+      compositePipeline_ = find(key);
+    }
+  }
+
+  void start() {
+    const Plan& plan = view_.plan;
+    anything_ = plan.composite || plan.drawnCount > 0;
+    FrameRecord& record = view_.record;
+    record.stats = {};
+    record.stats.frameIndex = in_.frameIndex;
+    record.passes.clear();
+    slot_.passOfQuery.clear();
+    if (!anything_) {
+      return;
+    }
+    auto* memory = static_cast<char*>(view_.resources.uniforms.data()) +
+                   in_.slot * view_.resources.slotStride;
+    FrameUniforms frame;
+    fillFrame(*in_.air, view_, frame);
+    std::memcpy(memory, &frame, sizeof frame);
+    vk_.CmdResetQueryPool(commands_, slot_.queries, 0, view_.resources.queryCount);
+    vk_.CmdFillBuffer(commands_, view_.resources.counters.handle(), counterOffset(), 16, 0);
+    // Also orders this frame's first pass after the last frame's readers of the same buffers.
+    barrier(VK_PIPELINE_STAGE_2_TRANSFER_BIT | COMPUTE |
+                VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+            VK_ACCESS_2_TRANSFER_WRITE_BIT | SHADER_ACCESS,
+            COMPUTE | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, SHADER_ACCESS);
+    vk::Image& light = view_.resources.lightBuffer;
+    if (plan.drawnCount > 0 && light.layout == VK_IMAGE_LAYOUT_UNDEFINED) {
+      image(light.handle(), VK_IMAGE_ASPECT_COLOR_BIT,
+            {VK_IMAGE_LAYOUT_UNDEFINED, 0, VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE},
+            GENERAL_STATE);
+      light.layout = VK_IMAGE_LAYOUT_GENERAL;
+    }
+    timestamp();
+  }
+
+  void acquireTargets() {
+    if (!anything_) {
+      return;
+    }
+    const WlkVulkanImageState sampled{
+        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, 0,
+        COMPUTE | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+    const WlkVulkanImageState attachment{
+        VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, 0,
+        VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+        VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+    work_[0] = sampled;
+    work_[1] = sampled;
+    work_[2] = view_.info.composite == WLK_COMPOSITE_BLEND ? attachment : GENERAL_STATE;
+    work_[3] = GENERAL_STATE;
+    const std::array images = imageList();
+    for (size_t i = 0; i < images.size(); ++i) {
+      if (*images[i]) {
+        image(images[i]->image, images[i]->barrierAspect, images[i]->before, work_[i]);
+      }
+    }
+  }
+
+  void releaseTargets() {
+    const std::array images = imageList();
+    for (size_t i = 0; i < images.size(); ++i) {
+      if (!*images[i]) {
+        continue;
+      }
+      const WlkVulkanImageState& from = anything_ ? work_[i] : images[i]->before;
+      if (anything_ || from.layout != images[i]->after.layout) {
+        image(images[i]->image, images[i]->barrierAspect, from, images[i]->after);
+      }
+    }
+  }
+
+  std::array<const TargetImage*, 4> imageList() const {
+    return {&targets_.depth, &targets_.colorInput, &targets_.target0, &targets_.target1};
+  }
+
+  void recordVolume(const PlannedVolume& planned) {
+    WlkPassStats light = passStats("light slices", WLK_PASS_LIGHT_SLICES, planned.id);
+    WlkPassStats eye = passStats("eye slices", WLK_PASS_EYE_SLICES, planned.id);
+    light.reason = planned.lightReason;
+    eye.reason = planned.eyeReason;
+    const auto lightIndex = static_cast<uint32_t>(view_.record.passes.size());
+    if (planned.drawn) {
+      const auto rank = static_cast<uint32_t>(&planned - view_.plan.volumes.data());
+      const bool first = rank == 0;
+      PlannedVolume covered = planned;
+      if (first) {
+        covered.rect = view_.plan.volumeRect;  // its first batch also clears the union
+      }
+      bindVolume(covered, rank);
+      const VkPipeline eyePipeline = find(eyeKeyOf(planned));
+      const VkPipeline lightPipeline =
+          find(lightKey(volumeOf(planned).state->fieldCount, quality_.forwardScattering));
+      for (uint32_t slab = 0; slab < quality_.sliceCount; slab += quality_.batchSize) {
+        SliceConstants push{};
+        push.firstSlab = slab;
+        push.slabCount = quality_.batchSize;  // a last batch past the end finds nothing to march
+        push.lightSize = quality_.lightSize;
+        push.flags = (slab == 0 ? interface_::SLICE_FIRST_BATCH : 0) |
+                     (slab + quality_.batchSize >= quality_.sliceCount
+                          ? interface_::SLICE_LAST_BATCH
+                          : 0) |
+                     (first ? interface_::SLICE_FIRST_VOLUME : 0);
+        if (planned.lit) {
+          orderShaders();
+          dispatch(lightPipeline, pipelines_.volumeLayout(), &push, groups(quality_.lightSize),
+                   groups(quality_.lightSize), light, lightIndex);
+        }
+        orderShaders();
+        dispatch(eyePipeline, pipelines_.volumeLayout(), &push,
+                 groups(covered.rect.x1 - covered.rect.x0),
+                 groups(covered.rect.y1 - covered.rect.y0), eye, lightIndex + 1);
+      }
+    }
+    view_.record.passes.push_back(light);
+    view_.record.passes.push_back(eye);
+  }
+
+  void bindVolume(const PlannedVolume& planned, uint32_t rank) {
+    const RecordVolume& volume = volumeOf(planned);
+    const ViewResources& r = view_.resources;
+    BoundSet& set = slot_.volumes[rank];
+    const VkDeviceSize base = in_.slot * r.slotStride;
+    const VkDeviceSize offset = base + r.slotStride - (r.volumeCapacity - rank) * r.volumeStride;
+    VolumeUniforms uniforms;
+    const glm::dvec3 eye(view_.camera.position[0], view_.camera.position[1],
+                         view_.camera.position[2]);
+    fillVolume(*volume.state, planned, eye, quality_, uniforms);
+    std::memcpy(static_cast<char*>(r.uniforms.data()) + offset, &uniforms, sizeof uniforms);
+
+    bindBuffer(set, vk::BIND_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(), base,
+               sizeof(FrameUniforms));
+    bindBuffer(set, vk::BIND_VOLUME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(),
+               offset, sizeof(VolumeUniforms));
+    bindImage(set, vk::BIND_LIGHT_STORAGE, r.lightBuffer.view(), VK_NULL_HANDLE,
+              VK_IMAGE_LAYOUT_GENERAL);
+    bindImage(set, vk::BIND_LIGHT_SAMPLED, r.lightBuffer.view(), pipelines_.linear(),
+              VK_IMAGE_LAYOUT_GENERAL);
+    for (uint32_t i = 0; i < WLK_MAX_FIELDS; ++i) {
+      VkImageView view = in_.dummy3d;
+      if (i < volume.state->fieldCount) {
+        const FieldState& field = volume.state->fields[i];
+        if (field.external) {
+          view = volume.externalViews[i];
+        } else if (field.image) {
+          view = field.image.view();
+        }
+      }
+      bindImage(set, vk::BIND_FIELD0 + i, view, pipelines_.linear(),
+                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    }
+    bindImage(set, vk::BIND_TABLE, volume.state->table.view(), pipelines_.linear(),
+              VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    bindImage(set, vk::BIND_DEPTH, targets_.depth ? targets_.depth.view : in_.dummy2d,
+              pipelines_.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    const vk::Buffer& volumeState = r.volumeState ? r.volumeState : r.frameState;
+    bindBuffer(set, vk::BIND_FRAME_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+               r.frameState.handle(), 0, r.frameState.size());
+    bindBuffer(set, vk::BIND_VOLUME_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+               volumeState.handle(), 0, volumeState.size());
+    vk_.CmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE,
+                              pipelines_.volumeLayout(), 0, 1, &set.set, 0, nullptr);
+  }
+
+  void recordComposite() {
+    WlkPassStats stats = passStats("composite", WLK_PASS_COMPOSITE, 0);
+    stats.reason = view_.plan.compositeReason;
+    const auto index = static_cast<uint32_t>(view_.record.passes.size());
+    if (view_.plan.composite) {
+      bindComposite();
+      orderShaders();
+      if (view_.info.composite == WLK_COMPOSITE_BLEND) {
+        drawBlend(stats, index);
+      } else {
+        vk_.CmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE,
+                                  pipelines_.compositeLayout(), 0, 1, &slot_.composite.set, 0,
+                                  nullptr);
+        dispatch(compositePipeline_, pipelines_.compositeLayout(), nullptr,
+                 groups(view_.info.width), groups(view_.info.height), stats, index);
+      }
+      // The counter goes to the CPU.
+      barrier(COMPUTE | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+              VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_HOST_BIT,
+              VK_ACCESS_2_HOST_READ_BIT);
+    }
+    view_.record.passes.push_back(stats);
+  }
+
+  void bindComposite() {
+    const ViewResources& r = view_.resources;
+    BoundSet& set = slot_.composite;
+    bindBuffer(set, vk::BIND_COMPOSITE_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+               r.uniforms.handle(), in_.slot * r.slotStride, sizeof(FrameUniforms));
+    bindBuffer(set, vk::BIND_COMPOSITE_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+               r.frameState.handle(), 0, r.frameState.size());
+    bindBuffer(set, vk::BIND_COMPOSITE_COUNTERS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+               r.counters.handle(), counterOffset(), 16);
+    bindImage(set, vk::BIND_COMPOSITE_DEPTH, targets_.depth ? targets_.depth.view : in_.dummy2d,
+              pipelines_.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    const bool blend = view_.info.composite == WLK_COMPOSITE_BLEND;
+    if (targets_.inputIsTarget && !blend) {
+      bindImage(set, vk::BIND_COMPOSITE_INPUT, targets_.target0.view, pipelines_.nearest(),
+                VK_IMAGE_LAYOUT_GENERAL);
+    } else {
+      bindImage(set, vk::BIND_COMPOSITE_INPUT,
+                targets_.colorInput ? targets_.colorInput.view : in_.dummy2d,
+                pipelines_.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    }
+    if (!blend) {
+      const TargetImage& second = targets_.target1 ? targets_.target1 : targets_.target0;
+      bindImage(set, vk::BIND_COMPOSITE_TARGET0, targets_.target0.view, VK_NULL_HANDLE,
+                VK_IMAGE_LAYOUT_GENERAL);
+      bindImage(set, vk::BIND_COMPOSITE_TARGET1, second.view, VK_NULL_HANDLE,
+                VK_IMAGE_LAYOUT_GENERAL);
+    }
+  }
+
+  void drawBlend(WlkPassStats& stats, uint32_t index) {
+    vk_.CmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                              pipelines_.compositeLayout(), 0, 1, &slot_.composite.set, 0,
+                              nullptr);
+    VkRenderingAttachmentInfo attachment{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+    attachment.imageView = targets_.target0.view;
+    attachment.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    attachment.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+    attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    const VkRect2D area{{0, 0}, {view_.info.width, view_.info.height}};
+    VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    rendering.renderArea = area;
+    rendering.layerCount = 1;
+    rendering.colorAttachmentCount = 1;
+    rendering.pColorAttachments = &attachment;
+    vk_.CmdBeginRendering(commands_, &rendering);
+    vk_.CmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, compositePipeline_);
+    const VkViewport viewport{0.0f, 0.0f, static_cast<float>(view_.info.width),
+                              static_cast<float>(view_.info.height), 0.0f, 1.0f};
+    vk_.CmdSetViewport(commands_, 0, 1, &viewport);
+    vk_.CmdSetScissor(commands_, 0, 1, &area);
+    vk_.CmdDraw(commands_, 3, 1, 0, 0);
+    vk_.CmdEndRendering(commands_);
+    stats.recorded = 1;
+    stats.commands += 1;
+    stats.invocations += uint64_t{view_.info.width} * view_.info.height;
+    view_.record.stats.draws += 1;
+    timestamp(index);
+  }
+
+  void dispatch(VkPipeline pipeline, VkPipelineLayout layout, const SliceConstants* push,
+                uint32_t x, uint32_t y, WlkPassStats& stats, uint32_t statsIndex) {
+    vk_.CmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+    if (push != nullptr) {
+      vk_.CmdPushConstants(commands_, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof *push, push);
+    }
+    vk_.CmdDispatch(commands_, x, y, 1);
+    stats.recorded = 1;
+    stats.commands += 1;
+    stats.invocations += uint64_t{x} * y * 64;
+    view_.record.stats.dispatches += 1;
+    timestamp(statsIndex);
+  }
+
+  // Ends a command of pass `index`; without one, starts the clock.
+  void timestamp(uint32_t index = ~0u) {
+    const auto query = static_cast<uint32_t>(slot_.passOfQuery.size()) + (index == ~0u ? 0 : 1);
+    if (index != ~0u) {
+      slot_.passOfQuery.push_back(index);
+    }
+    vk_.CmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot_.queries, query);
+  }
+
+  void orderShaders() { barrier(COMPUTE, SHADER_ACCESS, COMPUTE |
+                                VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, SHADER_ACCESS); }
+
+  void barrier(VkPipelineStageFlags2 fromStage, VkAccessFlags2 fromAccess,
+               VkPipelineStageFlags2 toStage, VkAccessFlags2 toAccess) {
+    VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    memory.srcStageMask = fromStage;
+    memory.srcAccessMask = fromAccess;
+    memory.dstStageMask = toStage;
+    memory.dstAccessMask = toAccess;
+    VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    info.memoryBarrierCount = 1;
+    info.pMemoryBarriers = &memory;
+    vk_.CmdPipelineBarrier2(commands_, &info);
+    view_.record.stats.barriers += 1;
+  }
+
+  void image(VkImage handle, VkImageAspectFlags aspect, const WlkVulkanImageState& from,
+             const WlkVulkanImageState& to) {
+    imageBarrier(vk_, commands_, handle, aspect, from, to);
+    view_.record.stats.barriers += 1;
+  }
+
+  WlkPassStats passStats(const char* name, uint32_t pass, uint64_t volume) const {
+    WlkPassStats stats{};
+    std::snprintf(stats.name, sizeof stats.name, "%s", name);
+    stats.pass = pass;
+    stats.volume.id = volume;
+    return stats;
+  }
+
+  VkDeviceSize counterOffset() const {
+    return view_.resources.counters.size() / view_.resources.slots.size() * in_.slot;
+  }
+
+  void bindImage(BoundSet& set, uint32_t binding, VkImageView view, VkSampler sampler,
+                 VkImageLayout layout) {
+    const uint64_t identity = bits(view) ^ (bits(sampler) << 1) ^ uint64_t{layout} << 56;
+    if (set.bound[binding] == identity) {
+      return;
+    }
+    set.bound[binding] = identity;
+    const VkDescriptorImageInfo info{sampler, view, layout};
+    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+    write.dstSet = set.set;
+    write.dstBinding = binding;
+    write.descriptorCount = 1;
+    write.descriptorType = sampler == VK_NULL_HANDLE ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
+                                                     : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    write.pImageInfo = &info;
+    vk_.UpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
+    view_.record.stats.descriptorWrites += 1;
+  }
+
+  void bindBuffer(BoundSet& set, uint32_t binding, VkDescriptorType type, VkBuffer buffer,
+                  VkDeviceSize offset, VkDeviceSize range) {
+    const uint64_t identity = bits(buffer) ^ (offset << 40) ^ range << 8;
+    if (set.bound[binding] == identity) {
+      return;
+    }
+    set.bound[binding] = identity;
+    const VkDescriptorBufferInfo info{buffer, offset, range};
+    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+    write.dstSet = set.set;
+    write.dstBinding = binding;
+    write.descriptorCount = 1;
+    write.descriptorType = type;
+    write.pBufferInfo = &info;
+    vk_.UpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
+    view_.record.stats.descriptorWrites += 1;
+  }
+
+  vk::Device& device_;
+  const vk::Dispatch& vk_;
+  const vk::Pipelines& pipelines_;
+  VkCommandBuffer commands_;
+  ViewState& view_;
+  const RecordInput& in_;
+  const ViewTargets& targets_;
+  ViewSlot& slot_;
+  SliceQuality quality_;
+  VkPipeline compositePipeline_ = VK_NULL_HANDLE;
+  bool anything_ = false;
+  std::array<WlkVulkanImageState, 4> work_{};
+};
+
+}  // namespace
+
+void imageBarrier(const vk::Dispatch& vk, VkCommandBuffer commands, VkImage image,
+                  VkImageAspectFlags aspect, const WlkVulkanImageState& from,
+                  const WlkVulkanImageState& to) {
+  VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+  barrier.srcStageMask = from.stages;
+  barrier.srcAccessMask = from.access;
+  barrier.dstStageMask = to.stages;
+  barrier.dstAccessMask = to.access;
+  barrier.oldLayout = from.layout;
+  barrier.newLayout = to.layout;
+  barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.image = image;
+  barrier.subresourceRange = {aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+  VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+  info.imageMemoryBarrierCount = 1;
+  info.pImageMemoryBarriers = &barrier;
+  vk.CmdPipelineBarrier2(commands, &info);
+}
+
+void recordView(vk::Device& device, const vk::Pipelines& pipelines, VkCommandBuffer commands,
+                ViewState& view, const RecordInput& input, const ViewTargets& targets) {
+  Recorder(device, pipelines, commands, view, input, targets).run();
+}
+
+void harvest(vk::Device& device, ViewState& view, uint64_t completed) {
+  ViewResources& r = view.resources;
+  for (size_t i = 0; i < r.slots.size(); ++i) {
+    ViewSlot& slot = r.slots[i];
+    if (slot.harvested || slot.frameIndex > completed) {
+      continue;
+    }
+    slot.harvested = true;
+    uint32_t count = 0;
+    std::memcpy(&count, static_cast<char*>(r.counters.data()) + r.counters.size() /
+                                                                    r.slots.size() * i,
+                sizeof count);
+    view.nonFinite = count;
+    if (slot.frameIndex != view.lastFrame) {
+      continue;
+    }
+    const float period = device.properties().limits.timestampPeriod;
+    uint64_t before = 0;
+    const vk::Dispatch& vk = device.vk();
+    for (uint32_t query = 0; query <= slot.passOfQuery.size(); ++query) {
+      uint64_t now = 0;
+      if (vk.GetQueryPoolResults(device.handle(), slot.queries, query, 1, sizeof now, &now,
+                                 sizeof now, VK_QUERY_RESULT_64_BIT) != VK_SUCCESS) {
+        break;
+      }
+      if (query > 0 && slot.passOfQuery[query - 1] < view.record.passes.size()) {
+        view.record.passes[slot.passOfQuery[query - 1]].gpuTime_ns +=
+            static_cast<uint64_t>(static_cast<double>(now - before) * static_cast<double>(period));
+      }
+      before = now;
+    }
+  }
+}
+
+}  // namespace welkin

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Turns a view's plan into commands. Allocates nothing and creates nothing on the device.
+#pragma once
+
+#include <span>
+
+#include "frame/scene.hpp"
+#include "frame/uniforms.hpp"
+
+namespace welkin {
+
+// An image the commands use: its view, and the states it comes from and goes to.
+struct TargetImage {
+  VkImage image = VK_NULL_HANDLE;
+  VkImageView view = VK_NULL_HANDLE;
+  VkImageAspectFlags barrierAspect = VK_IMAGE_ASPECT_COLOR_BIT;
+  WlkVulkanImageState before{};
+  WlkVulkanImageState after{};
+  explicit operator bool() const { return image != VK_NULL_HANDLE; }
+};
+
+struct ViewTargets {
+  TargetImage depth;
+  TargetImage colorInput;
+  bool inputIsTarget = false;  // colorInput is `target0` itself
+  TargetImage target0;         // colour, or radiance
+  TargetImage target1;         // transmittance
+};
+
+// Volumes of the context in plan order of index, with the views of the engine's field images.
+struct RecordVolume {
+  const VolumeState* state = nullptr;
+  std::array<VkImageView, WLK_MAX_FIELDS> externalViews{};
+};
+
+struct RecordInput {
+  const AirState* air = nullptr;
+  std::span<const RecordVolume> volumes;  // by PlannedVolume::index
+  VkImageView dummy2d = VK_NULL_HANDLE;
+  VkImageView dummy3d = VK_NULL_HANDLE;
+  uint64_t frameIndex = 0;
+  uint32_t slot = 0;
+};
+
+// Records the plan in `view.plan`. Throws NOT_PREPARED before the first command if a pipeline is
+// missing.
+void recordView(vk::Device& device, const vk::Pipelines& pipelines, VkCommandBuffer commands,
+                ViewState& view, const RecordInput& input, const ViewTargets& targets);
+
+// Reads counters and timestamps of frames up to `completed` into view.record and view.nonFinite.
+void harvest(vk::Device& device, ViewState& view, uint64_t completed);
+
+// One image barrier over everything in an image.
+void imageBarrier(const vk::Dispatch& vk, VkCommandBuffer commands, VkImage image,
+                  VkImageAspectFlags aspect, const WlkVulkanImageState& from,
+                  const WlkVulkanImageState& to);
+
+}  // namespace welkin

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+#include "frame/resources.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "failure.hpp"
+#include "frame/uniforms.hpp"
+#include "tables/multiscatter.hpp"
+
+namespace welkin {
+namespace {
+
+using interface_::FrameUniforms;
+using interface_::VolumeUniforms;
+
+VkDeviceSize alignUp(VkDeviceSize x, VkDeviceSize alignment) {
+  return (x + alignment - 1) / alignment * alignment;
+}
+
+// Owns a half-made ViewResources' Vulkan objects until it is complete.
+class Draft {
+ public:
+  Draft(vk::Device& device, std::pmr::memory_resource* memory)
+      : device_(device), resources(memory) {}
+  ~Draft() { destroyObjects(device_, resources); }
+  Draft(const Draft&) = delete;
+  Draft& operator=(const Draft&) = delete;
+
+  static void destroyObjects(vk::Device& device, ViewResources& r) {
+    const vk::Dispatch& vk = device.vk();
+    for (ViewSlot& slot : r.slots) {
+      if (slot.queries != VK_NULL_HANDLE) {
+        vk.DestroyQueryPool(device.handle(), slot.queries, nullptr);
+        slot.queries = VK_NULL_HANDLE;
+      }
+    }
+    if (r.pool != VK_NULL_HANDLE) {
+      vk.DestroyDescriptorPool(device.handle(), r.pool, nullptr);
+      r.pool = VK_NULL_HANDLE;
+    }
+  }
+
+ private:
+  vk::Device& device_;
+
+ public:
+  ViewResources resources;
+};
+
+VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t volumes) {
+  const uint32_t sets = slots * (volumes + 1);
+  const std::array sizes{
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, slots * (2 * volumes + 1)},
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, slots * (2 * volumes + 2)},
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, slots * (volumes + 2)},
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, slots * (7 * volumes + 2)}};
+  VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+  info.maxSets = sets;
+  info.poolSizeCount = static_cast<uint32_t>(sizes.size());
+  info.pPoolSizes = sizes.data();
+  VkDescriptorPool pool = VK_NULL_HANDLE;
+  vk::check(device.vk().CreateDescriptorPool(device.handle(), &info, nullptr, &pool),
+            "vkCreateDescriptorPool");
+  return pool;
+}
+
+VkDescriptorSet makeSet(const vk::Device& device, VkDescriptorPool pool,
+                        VkDescriptorSetLayout layout) {
+  VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+  info.descriptorPool = pool;
+  info.descriptorSetCount = 1;
+  info.pSetLayouts = &layout;
+  VkDescriptorSet set = VK_NULL_HANDLE;
+  vk::check(device.vk().AllocateDescriptorSets(device.handle(), &info, &set),
+            "vkAllocateDescriptorSets");
+  return set;
+}
+
+void makeSlots(vk::Device& device, const vk::Pipelines& pipelines, ViewResources& r,
+               uint32_t framesInFlight, std::pmr::memory_resource* memory) {
+  r.pool = makePool(device, framesInFlight, r.volumeCapacity);
+  r.slots.reserve(framesInFlight);
+  for (uint32_t i = 0; i < framesInFlight; ++i) {
+    ViewSlot& slot = r.slots.emplace_back(memory);
+    slot.composite.set = makeSet(device, r.pool, pipelines.compositeSetLayout());
+    slot.volumes.resize(r.volumeCapacity);
+    for (BoundSet& set : slot.volumes) {
+      set.set = makeSet(device, r.pool, pipelines.volumeSetLayout());
+    }
+    slot.passOfQuery.reserve(r.queryCount);
+    VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    info.queryCount = r.queryCount;
+    vk::check(device.vk().CreateQueryPool(device.handle(), &info, nullptr, &slot.queries),
+              "vkCreateQueryPool");
+  }
+}
+
+vk::Image makeTarget(vk::Device& device, uint32_t width, uint32_t height, VkFormat format) {
+  vk::ImageInfo info;
+  info.format = format;
+  info.extent = {width, height, 1};
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+               VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  return vk::Image(device, info);
+}
+
+void makeHeadlessTargets(vk::Device& device, const WlkViewInfo& info, ViewResources& r) {
+  const VkFormat format = targetFormat(info.targetFormat);
+  r.depth = makeTarget(device, info.width, info.height, VK_FORMAT_R32_SFLOAT);
+  r.color = makeTarget(device, info.width, info.height, VK_FORMAT_R32G32B32A32_SFLOAT);
+  r.target0 = makeTarget(device, info.width, info.height, format);
+  if (info.composite == WLK_COMPOSITE_SEPARATE) {
+    r.target1 = makeTarget(device, info.width, info.height, format);
+  }
+  const VkDeviceSize pixels = VkDeviceSize{info.width} * info.height;
+  r.upload = vk::Buffer(device, pixels * 20, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true);
+  r.readback = vk::Buffer(device, pixels * 32, VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
+}
+
+void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
+                      const SceneFeatures& features, std::span<const uint32_t> fieldCounts) {
+  // Every state the frame may find the scene in without another wlkPrepare: light above or below
+  // the horizon, something opaque or not, volumes in view or not.
+  const SliceQuality quality = resolveQuality(view.quality);
+  const bool air = features.sky && (view.info.layers & WLK_LAYER_SKY) != 0;
+  const bool fog = features.fog && (view.info.layers & WLK_LAYER_FOG) != 0;
+  for (const bool light : {false, true}) {
+    for (const bool depth : {false, true}) {
+      for (const uint32_t fields : fieldCounts) {
+        pipelines.prepare(eyeKey(air, fog, light, fields, quality.forwardScattering, depth));
+      }
+      for (const bool volumes : {false, true}) {
+        for (const bool input : {false, true}) {
+          CompositeVariant v{};
+          v.air = air;
+          v.fog = fog;
+          v.light = light;
+          v.volumes = volumes;
+          v.depth = depth;
+          v.disk = air && light && (view.info.layers & WLK_LAYER_SUN_DISK) != 0;
+          v.ground = air && (view.info.layers & WLK_LAYER_GROUND) != 0;
+          v.colorInput = input;
+          if ((volumes && fieldCounts.empty()) ||
+              (input && view.info.composite != WLK_COMPOSITE_COMPUTE)) {
+            continue;
+          }
+          pipelines.prepare(compositeKey(view.info, v));
+        }
+      }
+    }
+  }
+  for (const uint32_t fields : fieldCounts) {
+    pipelines.prepare(lightKey(fields, quality.forwardScattering));
+  }
+}
+
+}  // namespace
+
+VkFormat targetFormat(uint32_t welkinFormat) {
+  switch (welkinFormat) {
+    case WLK_TARGET_RGBA32_FLOAT:
+      return VK_FORMAT_R32G32B32A32_SFLOAT;
+    case WLK_TARGET_B10G11R11_FLOAT:
+      return VK_FORMAT_B10G11R11_UFLOAT_PACK32;
+    default:
+      return VK_FORMAT_R16G16B16A16_SFLOAT;
+  }
+}
+
+vk::PipelineKey lightKey(uint32_t fields, bool forward) {
+  return {vk::Pass::LightSlices, VK_FORMAT_UNDEFINED, {0, 0, 1, fields, forward ? 1u : 0u}};
+}
+
+vk::PipelineKey eyeKey(bool air, bool fog, bool light, uint32_t fields, bool forward, bool depth) {
+  return {vk::Pass::EyeSlices,
+          VK_FORMAT_UNDEFINED,
+          {air, fog, light, fields, forward ? 1u : 0u, depth ? 1u : 0u}};
+}
+
+vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& v) {
+  vk::PipelineKey key;
+  key.constants = {v.air, v.fog, v.light, v.volumes, v.depth, v.disk && v.light, v.ground};
+  if (info.composite == WLK_COMPOSITE_BLEND) {
+    key.pass = vk::Pass::CompositeBlend;
+    key.format = targetFormat(info.targetFormat);
+  } else {
+    key.pass = vk::Pass::Composite;
+    key.constants[7] = info.composite == WLK_COMPOSITE_SEPARATE;
+    key.constants[8] = v.colorInput;
+    key.constants[9] = info.targetFormat == WLK_TARGET_RGBA16_FLOAT;
+  }
+  return key;
+}
+
+void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
+                 uint32_t volumeCount, uint32_t framesInFlight, const SceneFeatures& features,
+                 std::span<const uint32_t> fieldCounts, std::pmr::memory_resource* memory) {
+  const SliceQuality quality = resolveQuality(view.quality);
+  const WlkViewInfo& info = view.info;
+  preparePipelines(pipelines, view, features, fieldCounts);
+
+  Draft draft(device, memory);
+  ViewResources& r = draft.resources;
+  r.volumeCapacity = volumeCount;
+  const VkDeviceSize alignment =
+      std::max<VkDeviceSize>(device.properties().limits.minUniformBufferOffsetAlignment, 16);
+  r.volumeStride = alignUp(sizeof(VolumeUniforms), alignment);
+  r.slotStride = alignUp(sizeof(FrameUniforms), alignment) + volumeCount * r.volumeStride;
+  r.uniforms = vk::Buffer(device, r.slotStride * framesInFlight,
+                          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, true);
+  const VkDeviceSize counterStride =
+      std::max<VkDeviceSize>(device.properties().limits.minStorageBufferOffsetAlignment, 16);
+  r.counters = vk::Buffer(
+      device, counterStride * framesInFlight,
+      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
+  const uint32_t batches = (quality.sliceCount + quality.batchSize - 1) / quality.batchSize;
+  r.queryCount = 2 + volumeCount * 2 * batches;
+  const VkDeviceSize pixels = VkDeviceSize{info.width} * info.height;
+  const VkDeviceSize stateBytes = volumeCount > 0 ? pixels * 16 : 16;
+  r.frameState = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
+  if (volumeCount > 1 && batches > 1) {
+    r.volumeState = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
+  }
+  if (volumeCount > 0) {
+    if (pixels * 16 > device.properties().limits.maxStorageBufferRange) {
+      fail(WLK_ERROR_LIMIT_EXCEEDED, WLK_STRUCT_VIEW_INFO, "width",
+           "%u x %u pixels with volumes exceed the device's storage buffers", info.width,
+           info.height);
+    }
+    vk::ImageInfo light;
+    light.type = VK_IMAGE_TYPE_3D;
+    light.format = VK_FORMAT_R32G32_SFLOAT;
+    light.extent = {quality.lightSize, quality.lightSize, quality.batchSize + 1};
+    light.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    r.lightBuffer = vk::Image(device, light);
+  }
+  if (device.info().headless) {
+    makeHeadlessTargets(device, info, r);
+  }
+  makeSlots(device, pipelines, r, framesInFlight, memory);
+  view.plan.volumes.reserve(volumeCount);
+  view.planVolumes.reserve(volumeCount);
+  view.record.passes.reserve(2 + 2 * volumeCount);
+  view.record.passOfQuery.reserve(r.queryCount);
+  std::swap(view.resources, r);
+  view.prepared = true;
+}
+
+void destroyView(vk::Device& device, ViewState& view) {
+  Draft::destroyObjects(device, view.resources);
+}
+
+void prepareVolume(vk::Device& device, VolumeState& volume) {
+  if (volume.table) {
+    return;
+  }
+  vk::ImageInfo info;
+  info.format = VK_FORMAT_R32_SFLOAT;
+  info.extent = {kPhaseAngles, kPhaseDepths, 1};
+  info.layers = volume.fieldCount;
+  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  info.arrayView = true;
+  vk::Image table(device, info);
+  constexpr size_t layerBytes = sizeof(float) * kPhaseAngles * kPhaseDepths;
+  vk::Buffer staging(device, layerBytes * volume.fieldCount, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                     true);
+  for (uint32_t i = 0; i < volume.fieldCount; ++i) {
+    FieldState& field = volume.fields[i];
+    ForwardScatteringTable values;
+    bool copied = false;
+    for (uint32_t j = 0; j < i && !copied; ++j) {
+      if (volume.fields[j].mediumId == field.mediumId) {
+        std::memcpy(static_cast<char*>(staging.data()) + i * layerBytes,
+                    static_cast<char*>(staging.data()) + j * layerBytes, layerBytes);
+        field.forwardFraction = volume.fields[j].forwardFraction;
+        copied = true;
+      }
+    }
+    if (!copied) {
+      buildForwardScattering(field.medium.phase, values);
+      std::memcpy(static_cast<char*>(staging.data()) + i * layerBytes, values.logRatio.data(),
+                  layerBytes);
+      field.forwardFraction = values.forwardFraction;
+    }
+  }
+  volume.table = std::move(table);
+  volume.tableStaging = std::move(staging);
+}
+
+}  // namespace welkin

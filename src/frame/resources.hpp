@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Makes the GPU objects of views and volumes: everything recording will need.
+#pragma once
+
+#include <span>
+
+#include "frame/scene.hpp"
+
+namespace welkin {
+
+// Which air models the scene has; decides the pipelines of a view.
+struct SceneFeatures {
+  bool sky = false;
+  bool fog = false;
+};
+
+VkFormat targetFormat(uint32_t welkinFormat);
+
+// (Re)makes what the view needs for up to `volumeCount` volumes. Strong guarantee: on failure the
+// view keeps what it had.
+void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
+                 uint32_t volumeCount, uint32_t framesInFlight, const SceneFeatures& features,
+                 std::span<const uint32_t> fieldCounts, std::pmr::memory_resource* memory);
+void destroyView(vk::Device& device, ViewState& view);
+
+// Builds the volume's forward-scattering tables and the staging copy of them.
+void prepareVolume(vk::Device& device, VolumeState& volume);
+
+// The key of a pass in the state a plan asks for.
+vk::PipelineKey lightKey(uint32_t fields, bool forward);
+vk::PipelineKey eyeKey(bool air, bool fog, bool light, uint32_t fields, bool forward, bool depth);
+struct CompositeVariant {
+  bool air, fog, light, volumes, depth, disk, ground, colorInput;
+};
+vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& variant);
+
+}  // namespace welkin

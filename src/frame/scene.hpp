@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// What a context holds between frames: the scene as the engine set it, and the GPU objects that
+// belong to it.
+#pragma once
+
+#include <welkin/welkin.h>
+#include <welkin/welkin_vulkan.h>
+
+#include <array>
+#include <glm/glm.hpp>
+#include <memory_resource>
+#include <optional>
+#include <vector>
+
+#include "frame/plan.hpp"
+#include "particles/medium.hpp"
+#include "vk/device.hpp"
+#include "vk/pipelines.hpp"
+
+namespace welkin {
+
+constexpr int DEPTH_NODES = 32;  // of a forward-scattering table, see tables/multiscatter.hpp
+
+struct MediumState {
+  Medium medium;
+  uint32_t users = 0;
+};
+
+// A field's image: Welkin's own, made by the first upload, or the engine's.
+struct FieldState {
+  uint64_t mediumId = 0;
+  Medium medium;
+  float extinctionScale = 0;
+  float largest = 0;  // bound of the values in `image`
+  vk::Image image;
+  std::optional<WlkVulkanImage> external;
+  std::array<float, DEPTH_NODES> forwardFraction{};
+};
+
+// Data on its way to a field's image.
+struct PendingUpload {
+  uint64_t volumeId = 0;
+  uint32_t field = 0;
+  vk::Buffer staging;
+  VkBufferImageCopy region{};
+};
+
+struct VolumeState {
+  std::array<uint32_t, 3> size{};
+  uint32_t fieldCount = 0;
+  std::array<FieldState, WLK_MAX_FIELDS> fields;
+  glm::dmat4x3 worldFromBox{1.0};
+  vk::Image table;          // forward-scattering tables, one layer per field
+  vk::Buffer tableStaging;  // until the table is uploaded
+
+  bool anyDensity() const {
+    for (uint32_t i = 0; i < fieldCount; ++i) {
+      const FieldState& f = fields[i];
+      if (f.extinctionScale > 0 && (f.largest > 0 || f.external)) {
+        return true;
+      }
+    }
+    return false;
+  }
+};
+
+// A descriptor set and what it points to; written only where that changes.
+struct BoundSet {
+  VkDescriptorSet set = VK_NULL_HANDLE;
+  std::array<uint64_t, vk::VOLUME_BINDING_COUNT> bound{};
+};
+
+// What recording reported about a frame, kept until the statistics are asked for.
+struct FrameRecord {
+  explicit FrameRecord(std::pmr::memory_resource* memory) : passes(memory), passOfQuery(memory) {}
+  WlkFrameStats stats{};
+  std::pmr::vector<WlkPassStats> passes;
+  std::pmr::vector<uint32_t> passOfQuery;  // query i + 1 ends a command of this pass
+};
+
+struct ViewSlot {
+  BoundSet composite;
+  std::pmr::vector<BoundSet> volumes;
+  VkQueryPool queries = VK_NULL_HANDLE;
+  uint64_t frameIndex = 0;  // last frame recorded into this slot, 0 if none
+  bool harvested = true;    // its counters and timestamps were read
+  std::pmr::vector<uint32_t> passOfQuery;
+  explicit ViewSlot(std::pmr::memory_resource* memory) : volumes(memory), passOfQuery(memory) {}
+};
+
+// Images and buffers of a view; remade by wlkPrepare when their sizes change.
+struct ViewResources {
+  explicit ViewResources(std::pmr::memory_resource* memory) : slots(memory) {}
+  vk::Image lightBuffer;
+  vk::Buffer frameState;
+  vk::Buffer volumeState;
+  vk::Buffer uniforms;
+  VkDeviceSize slotStride = 0;
+  VkDeviceSize volumeStride = 0;
+  vk::Buffer counters;
+  VkDescriptorPool pool = VK_NULL_HANDLE;
+  std::pmr::vector<ViewSlot> slots;
+  uint32_t volumeCapacity = 0;
+  uint32_t queryCount = 0;
+  // Headless only.
+  vk::Image depth;
+  vk::Image color;
+  vk::Image target0;
+  vk::Image target1;
+  vk::Buffer upload;
+  vk::Buffer readback;
+};
+
+struct ViewState {
+  explicit ViewState(std::pmr::memory_resource* memory)
+      : resources(memory), plan(memory), planVolumes(memory), record(memory) {}
+  WlkViewInfo info{};
+  WlkCamera camera{};
+  glm::dmat4 clipFromView{1.0};
+  glm::dmat4 eyeFromNdc{1.0};   // world orientation, relative to the eye
+  glm::dmat4 clipFromEye{1.0};
+  double skyDepth = 0;
+  WlkQuality quality{};
+  ViewResources resources;
+  Plan plan;
+  std::pmr::vector<PlanVolume> planVolumes;
+  FrameRecord record;
+  bool prepared = false;
+  uint64_t lastFrame = 0;  // 0: none recorded yet
+  uint64_t nonFinite = 0;  // of the newest frame that was read back
+};
+
+}  // namespace welkin

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "frame/uniforms.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "model/model.hpp"
+
+namespace welkin {
+namespace {
+
+glm::vec3 vec(const float (&v)[3]) {
+  return {v[0], v[1], v[2]};
+}
+
+}  // namespace
+
+float targetLimit(uint32_t welkinFormat) {
+  switch (welkinFormat) {
+    case WLK_TARGET_RGBA32_FLOAT:
+      return 3.0e38f;
+    case WLK_TARGET_B10G11R11_FLOAT:
+      return 64512.0f;  // largest 10-bit float: blue has one mantissa bit less
+    default:
+      return 65504.0f;
+  }
+}
+
+void fillFrame(const AirState& air, const ViewState& view, interface_::FrameUniforms& out) {
+  out = {};
+  const float width = static_cast<float>(view.info.width);
+  const float height = static_cast<float>(view.info.height);
+  out.eyeFromNdc = glm::mat4(view.eyeFromNdc);
+  out.viewport = {width, height, 1.0f / width, 1.0f / height};
+  out.output_ = {static_cast<float>(view.skyDepth), view.camera.preExposure,
+                 targetLimit(view.info.targetFormat), 0.0f};
+  const glm::dvec3 position(view.camera.position[0], view.camera.position[1],
+                            view.camera.position[2]);
+  const PlanetFrame frame = planetFrameAt(air.planet, position);
+  out.eye = glm::vec4(glm::vec3(frame.up), static_cast<float>(frame.altitude));
+  out.ground = glm::vec4(vec(air.planet.groundAlbedo), 0.0f);
+  out.fog.w = air.planet.radius;
+  out.fog.z = 1.0f;
+  out.air.w = 1.0f;
+  if (air.light) {
+    const glm::dvec3 to = glm::normalize(
+        glm::dvec3(air.light->direction[0], air.light->direction[1], air.light->direction[2]));
+    const double radius = 0.5 * air.light->angularDiameter;
+    out.light = glm::vec4(glm::vec3(to), static_cast<float>(radius));
+    out.lightIrradiance =
+        glm::vec4(vec(air.light->irradiance), static_cast<float>(glm::dot(to, frame.up)));
+    const double sine = std::sin(radius);
+    const double half = std::sin(0.5 * radius);
+    // Radiance of a uniform disk: E / (pi sin^2 r); the rim's 1 - cos r = 2 sin^2(r / 2). The soft
+    // rim (diskCoverage: a smoothstep over the last 8 % of the area) keeps 0.96 of the area.
+    if (sine > 0) {
+      const double solidAngle = std::numbers::pi * sine * sine * 0.96;
+      out.lightDisk = glm::vec4(vec(air.light->irradiance) / static_cast<float>(solidAngle),
+                                static_cast<float>(2.0 * half * half));
+    }
+  }
+  if (air.sky) {
+    out.air = glm::vec4(vec(air.sky->rayleighScattering), air.sky->scaleHeight);
+  }
+  if (air.fog) {
+    out.fog = {air.fog->extinction, air.fog->baseAltitude, air.fog->scaleHeight,
+               air.planet.radius};
+    const model::f64::FogPhase p = model::f64::fogPhaseFromDiameter(air.fog->dropletDiameter_um);
+    out.fogAlbedo = glm::vec4(vec(air.fog->singleScatteringAlbedo), static_cast<float>(p.weightD));
+    out.fogPhase = {static_cast<float>(p.gHg), static_cast<float>(p.gapHg),
+                    static_cast<float>(p.gD), static_cast<float>(p.gapD)};
+    out.ground.w = static_cast<float>(p.alpha);
+  }
+  const PixelRect& rect = view.plan.volumeRect;
+  out.volumeRect = {static_cast<float>(rect.x0), static_cast<float>(rect.y0),
+                    static_cast<float>(rect.x1), static_cast<float>(rect.y1)};
+}
+
+void fillVolume(const VolumeState& volume, const PlannedVolume& planned, const glm::dvec3& eye,
+                const SliceQuality& quality, interface_::VolumeUniforms& out) {
+  out = {};
+  glm::dmat4x3 box = volume.worldFromBox;
+  box[3] -= eye;
+  const glm::dmat3 inverse = glm::inverse(glm::dmat3(box));
+  glm::dmat4 boxFromEye(inverse);
+  boxFromEye[3] = glm::dvec4(-(inverse * box[3]), 1.0);
+  const SliceLayout& layout = planned.layout;
+  out.boxFromEye = glm::mat4(boxFromEye);
+  out.lightU = glm::vec4(layout.lightU);
+  out.lightV = glm::vec4(layout.lightV);
+  out.plane = glm::vec4(layout.plane);
+  const glm::dvec3 origin = inverse * (layout.texelOrigin - box[3]);
+  const double maxStep = layout.slabThickness * 1.5;
+  out.texelOrigin = glm::vec4(glm::vec3(origin), 0.0f);
+  out.texelA = glm::vec4(glm::vec3(inverse * layout.texelU), static_cast<float>(layout.lightPath));
+  out.texelB =
+      glm::vec4(glm::vec3(inverse * layout.texelV), static_cast<float>(quality.sliceCount));
+  out.texelC = glm::vec4(glm::vec3(inverse * layout.texelC), static_cast<float>(maxStep));
+  for (uint32_t i = 0; i < volume.fieldCount; ++i) {
+    const FieldState& field = volume.fields[i];
+    const Medium& m = field.medium;
+    const int c = static_cast<int>(i);
+    const bool present = field.external.has_value() || field.image;
+    out.extinctionScale[c] = present ? field.extinctionScale : 0.0f;
+    out.albedo[i] = glm::vec4(static_cast<float>(m.albedo[0]), static_cast<float>(m.albedo[1]),
+                              static_cast<float>(m.albedo[2]), 0.0f);
+    out.meanAlbedo[c] = (out.albedo[i].x + out.albedo[i].y + out.albedo[i].z) / 3.0f;
+    out.phase[i] = {static_cast<float>(m.phase.gHg), static_cast<float>(m.phase.gapHg),
+                    static_cast<float>(m.phase.gD), static_cast<float>(m.phase.gapD)};
+    out.phaseMix[c] = static_cast<float>(m.phase.weightD);
+    out.phaseAlpha[c] = static_cast<float>(m.phase.alpha);
+    for (size_t n = 0; n < field.forwardFraction.size(); ++n) {
+      out.forwardFraction[n][c] = field.forwardFraction[n];
+    }
+  }
+  out.rect = {static_cast<float>(planned.rect.x0), static_cast<float>(planned.rect.y0),
+              static_cast<float>(planned.rect.x1), static_cast<float>(planned.rect.y1)};
+}
+
+}  // namespace welkin

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "vk/device.hpp"
+
+#include <utility>
+
+#include "failure.hpp"
+
+namespace welkin::vk {
+
+Device::Device(const DeviceInfo& info, std::pmr::memory_resource* host) : info_(info) {
+  loadInstanceFunctions(vk_, info.getInstanceProcAddr, info.instance);
+  vk_.GetPhysicalDeviceProperties(info.physicalDevice, &properties_);
+  if (properties_.apiVersion < VK_API_VERSION_1_3) {
+    fail(WLK_ERROR_MISSING_FEATURE, 0, "apiVersion",
+         "the device supports Vulkan %u.%u, Welkin needs 1.3",
+         VK_API_VERSION_MAJOR(properties_.apiVersion),
+         VK_API_VERSION_MINOR(properties_.apiVersion));
+  }
+  loadDeviceFunctions(vk_, info.device, info.headless);
+  memory_.emplace(vk_, info.physicalDevice, info.device, host);
+}
+
+bool Device::supports(VkFormat format, VkFormatFeatureFlags features) const {
+  VkFormatProperties properties{};
+  vk_.GetPhysicalDeviceFormatProperties(info_.physicalDevice, format, &properties);
+  return (properties.optimalTilingFeatures & features) == features;
+}
+
+Buffer::Buffer(Device& device, VkDeviceSize size, VkBufferUsageFlags usage, bool hostVisible)
+    : device_(&device), size_(size) {
+  const Dispatch& vk = device.vk();
+  VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+  info.size = size;
+  info.usage = usage;
+  check(vk.CreateBuffer(device.handle(), &info, nullptr, &buffer_), "vkCreateBuffer");
+  try {
+    VkMemoryRequirements needs{};
+    vk.GetBufferMemoryRequirements(device.handle(), buffer_, &needs);
+    allocation_ = device.memory().allocate(needs, hostVisible, true);
+    check(vk.BindBufferMemory(device.handle(), buffer_, device.memory().memoryOf(allocation_),
+                              allocation_.offset),
+          "vkBindBufferMemory");
+  } catch (...) {
+    vk.DestroyBuffer(device.handle(), buffer_, nullptr);
+    device.memory().release(allocation_);
+    throw;
+  }
+}
+
+Buffer::~Buffer() {
+  if (buffer_ != VK_NULL_HANDLE) {
+    device_->vk().DestroyBuffer(device_->handle(), buffer_, nullptr);
+    device_->memory().release(allocation_);
+  }
+}
+
+void Buffer::swap(Buffer& other) noexcept {
+  std::swap(device_, other.device_);
+  std::swap(buffer_, other.buffer_);
+  std::swap(size_, other.size_);
+  std::swap(allocation_, other.allocation_);
+}
+
+VkImageView createView(const Device& device, VkImage image, VkFormat format, VkImageViewType type,
+                       VkImageAspectFlags aspect, uint32_t layers) {
+  VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+  info.image = image;
+  info.viewType = type;
+  info.format = format;
+  info.subresourceRange = {aspect, 0, 1, 0, layers};
+  VkImageView view = VK_NULL_HANDLE;
+  check(device.vk().CreateImageView(device.handle(), &info, nullptr, &view), "vkCreateImageView");
+  return view;
+}
+
+Image::Image(Device& device, const ImageInfo& info) : device_(&device), info_(info) {
+  const Dispatch& vk = device.vk();
+  VkImageCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
+  create.imageType = info.type;
+  create.format = info.format;
+  create.extent = info.extent;
+  create.mipLevels = 1;
+  create.arrayLayers = info.layers;
+  create.samples = VK_SAMPLE_COUNT_1_BIT;
+  create.tiling = VK_IMAGE_TILING_OPTIMAL;
+  create.usage = info.usage;
+  create.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+  check(vk.CreateImage(device.handle(), &create, nullptr, &image_), "vkCreateImage");
+  try {
+    VkMemoryRequirements needs{};
+    vk.GetImageMemoryRequirements(device.handle(), image_, &needs);
+    allocation_ = device.memory().allocate(needs, false, false);
+    check(vk.BindImageMemory(device.handle(), image_, device.memory().memoryOf(allocation_),
+                             allocation_.offset),
+          "vkBindImageMemory");
+    const VkImageViewType type =
+        info.type == VK_IMAGE_TYPE_3D
+            ? VK_IMAGE_VIEW_TYPE_3D
+            : (info.arrayView ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D);
+    view_ = createView(device, image_, info.format, type, VK_IMAGE_ASPECT_COLOR_BIT, info.layers);
+  } catch (...) {
+    vk.DestroyImage(device.handle(), image_, nullptr);
+    device.memory().release(allocation_);
+    throw;
+  }
+}
+
+Image::~Image() {
+  if (image_ != VK_NULL_HANDLE) {
+    device_->vk().DestroyImageView(device_->handle(), view_, nullptr);
+    device_->vk().DestroyImage(device_->handle(), image_, nullptr);
+    device_->memory().release(allocation_);
+  }
+}
+
+void Image::swap(Image& other) noexcept {
+  std::swap(device_, other.device_);
+  std::swap(image_, other.image_);
+  std::swap(view_, other.view_);
+  std::swap(info_, other.info_);
+  std::swap(allocation_, other.allocation_);
+  std::swap(layout, other.layout);
+}
+
+}  // namespace welkin::vk

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// The device Welkin works on, borrowed from the engine or its own, and the resources made on it.
+#pragma once
+
+#include <welkin/welkin.h>
+
+#include <memory_resource>
+#include <optional>
+
+#include "vk/dispatch.hpp"
+#include "vk/memory.hpp"
+
+namespace welkin::vk {
+
+struct DeviceInfo {
+  PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
+  VkInstance instance = VK_NULL_HANDLE;
+  VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  VkPipelineCache pipelineCache = VK_NULL_HANDLE;
+  uint32_t queueFamilyIndex = 0;
+  bool dualSrcBlend = false;
+  bool headless = false;
+};
+
+class Device {
+ public:
+  Device(const DeviceInfo& info, std::pmr::memory_resource* host);
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  const Dispatch& vk() const { return vk_; }
+  VkDevice handle() const { return info_.device; }
+  const DeviceInfo& info() const { return info_; }
+  const VkPhysicalDeviceProperties& properties() const { return properties_; }
+  DeviceMemory& memory() { return *memory_; }
+  bool supports(VkFormat format, VkFormatFeatureFlags features) const;
+
+ private:
+  DeviceInfo info_;
+  Dispatch vk_;
+  VkPhysicalDeviceProperties properties_{};
+  std::optional<DeviceMemory> memory_;
+};
+
+// A buffer with its memory; host-visible ones stay mapped.
+class Buffer {
+ public:
+  Buffer() = default;
+  Buffer(Device& device, VkDeviceSize size, VkBufferUsageFlags usage, bool hostVisible);
+  Buffer(Buffer&& other) noexcept { swap(other); }
+  Buffer& operator=(Buffer&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~Buffer();
+  explicit operator bool() const { return buffer_ != VK_NULL_HANDLE; }
+  VkBuffer handle() const { return buffer_; }
+  VkDeviceSize size() const { return size_; }
+  void* data() const { return allocation_.mapped; }
+
+ private:
+  void swap(Buffer& other) noexcept;
+  Device* device_ = nullptr;
+  VkBuffer buffer_ = VK_NULL_HANDLE;
+  VkDeviceSize size_ = 0;
+  Allocation allocation_;
+};
+
+struct ImageInfo {
+  VkImageType type = VK_IMAGE_TYPE_2D;
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  VkExtent3D extent{1, 1, 1};
+  uint32_t layers = 1;
+  VkImageUsageFlags usage = 0;
+  bool arrayView = false;
+};
+
+// An image with its memory and one view of all of it.
+class Image {
+ public:
+  Image() = default;
+  Image(Device& device, const ImageInfo& info);
+  Image(Image&& other) noexcept { swap(other); }
+  Image& operator=(Image&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~Image();
+  explicit operator bool() const { return image_ != VK_NULL_HANDLE; }
+  VkImage handle() const { return image_; }
+  VkImageView view() const { return view_; }
+  const ImageInfo& info() const { return info_; }
+  // Layout it has when the commands recorded so far have run.
+  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+
+ private:
+  void swap(Image& other) noexcept;
+  Device* device_ = nullptr;
+  VkImage image_ = VK_NULL_HANDLE;
+  VkImageView view_ = VK_NULL_HANDLE;
+  ImageInfo info_;
+  Allocation allocation_;
+};
+
+VkImageView createView(const Device& device, VkImage image, VkFormat format, VkImageViewType type,
+                       VkImageAspectFlags aspect, uint32_t layers);
+
+}  // namespace welkin::vk

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+#include "vk/pipelines.hpp"
+
+#include <span>
+
+#include "composite_blend_frag_spv.h"
+#include "composite_comp_spv.h"
+#include "composite_vert_spv.h"
+#include "eye_slices_comp_spv.h"
+#include "light_slices_comp_spv.h"
+
+namespace welkin::vk {
+namespace {
+
+constexpr uint32_t PUSH_CONSTANT_BYTES = 16;
+
+VkDescriptorSetLayoutBinding binding(uint32_t index, VkDescriptorType type) {
+  return {index, type, 1, VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
+}
+
+VkDescriptorSetLayout makeSetLayout(const Device& device,
+                                    std::span<const VkDescriptorSetLayoutBinding> bindings) {
+  VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+  info.bindingCount = static_cast<uint32_t>(bindings.size());
+  info.pBindings = bindings.data();
+  VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+  check(device.vk().CreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout),
+        "vkCreateDescriptorSetLayout");
+  return layout;
+}
+
+VkPipelineLayout makeLayout(const Device& device, VkDescriptorSetLayout set) {
+  const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, PUSH_CONSTANT_BYTES};
+  VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+  info.setLayoutCount = 1;
+  info.pSetLayouts = &set;
+  info.pushConstantRangeCount = 1;
+  info.pPushConstantRanges = &range;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  check(device.vk().CreatePipelineLayout(device.handle(), &info, nullptr, &layout),
+        "vkCreatePipelineLayout");
+  return layout;
+}
+
+VkSampler makeSampler(const Device& device, VkFilter filter) {
+  VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
+  info.magFilter = filter;
+  info.minFilter = filter;
+  info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+  VkSampler sampler = VK_NULL_HANDLE;
+  check(device.vk().CreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
+  return sampler;
+}
+
+// A shader module for the time a pipeline is made.
+class Module {
+ public:
+  Module(const Device& device, std::span<const uint32_t> code) : device_(device) {
+    VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+    info.codeSize = code.size_bytes();
+    info.pCode = code.data();
+    check(device.vk().CreateShaderModule(device.handle(), &info, nullptr, &module_),
+          "vkCreateShaderModule");
+  }
+  ~Module() { device_.vk().DestroyShaderModule(device_.handle(), module_, nullptr); }
+  Module(const Module&) = delete;
+  Module& operator=(const Module&) = delete;
+  VkShaderModule handle() const { return module_; }
+
+ private:
+  const Device& device_;
+  VkShaderModule module_ = VK_NULL_HANDLE;
+};
+
+struct Specialization {
+  std::array<VkSpecializationMapEntry, 10> entries{};
+  VkSpecializationInfo info{};
+  explicit Specialization(const PipelineKey& key) {
+    for (uint32_t i = 0; i < entries.size(); ++i) {
+      entries[i] = {i, i * 4, 4};
+    }
+    info = {static_cast<uint32_t>(entries.size()), entries.data(), sizeof key.constants,
+            key.constants.data()};
+  }
+};
+
+}  // namespace
+
+Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
+    : device_(device), entries_(host) {
+  try {
+    std::array<VkDescriptorSetLayoutBinding, VOLUME_BINDING_COUNT> volume{};
+    for (uint32_t i = 0; i < VOLUME_BINDING_COUNT; ++i) {
+      volume[i] = binding(i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+    }
+    volume[BIND_FRAME].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    volume[BIND_VOLUME].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    volume[BIND_LIGHT_STORAGE].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    volume[BIND_FRAME_STATE].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    volume[BIND_VOLUME_STATE].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    volumeSet_ = makeSetLayout(device_, volume);
+    const std::array composite{
+        binding(BIND_COMPOSITE_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
+        binding(BIND_COMPOSITE_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
+        binding(BIND_COMPOSITE_DEPTH, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
+        binding(BIND_COMPOSITE_INPUT, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
+        binding(BIND_COMPOSITE_TARGET0, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE),
+        binding(BIND_COMPOSITE_TARGET1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE),
+        binding(BIND_COMPOSITE_COUNTERS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)};
+    compositeSet_ = makeSetLayout(device_, composite);
+    volumeLayout_ = makeLayout(device_, volumeSet_);
+    compositeLayout_ = makeLayout(device_, compositeSet_);
+    linear_ = makeSampler(device_, VK_FILTER_LINEAR);
+    nearest_ = makeSampler(device_, VK_FILTER_NEAREST);
+  } catch (...) {
+    destroy();
+    throw;
+  }
+}
+
+Pipelines::~Pipelines() {
+  destroy();
+}
+
+void Pipelines::destroy() {
+  const Dispatch& vk = device_.vk();
+  const VkDevice device = device_.handle();
+  for (const Entry& entry : entries_) {
+    vk.DestroyPipeline(device, entry.pipeline, nullptr);
+  }
+  vk.DestroySampler(device, linear_, nullptr);
+  vk.DestroySampler(device, nearest_, nullptr);
+  vk.DestroyPipelineLayout(device, volumeLayout_, nullptr);
+  vk.DestroyPipelineLayout(device, compositeLayout_, nullptr);
+  vk.DestroyDescriptorSetLayout(device, volumeSet_, nullptr);
+  vk.DestroyDescriptorSetLayout(device, compositeSet_, nullptr);
+}
+
+VkPipeline Pipelines::find(const PipelineKey& key) const {
+  for (const Entry& entry : entries_) {
+    if (entry.key == key) {
+      return entry.pipeline;
+    }
+  }
+  return VK_NULL_HANDLE;
+}
+
+void Pipelines::prepare(const PipelineKey& key) {
+  if (find(key) != VK_NULL_HANDLE) {
+    return;
+  }
+  entries_.reserve(entries_.size() + 1);
+  entries_.push_back({key, key.pass == Pass::CompositeBlend ? makeBlend(key) : makeCompute(key)});
+}
+
+VkPipeline Pipelines::makeCompute(const PipelineKey& key) {
+  std::span<const uint32_t> code = composite_comp_spv;
+  VkPipelineLayout layout = compositeLayout_;
+  if (key.pass == Pass::LightSlices) {
+    code = light_slices_comp_spv;
+    layout = volumeLayout_;
+  } else if (key.pass == Pass::EyeSlices) {
+    code = eye_slices_comp_spv;
+    layout = volumeLayout_;
+  }
+  const Module module(device_, code);
+  const Specialization specialization(key);
+  VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+  info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+  info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+  info.stage.module = module.handle();
+  info.stage.pName = "main";
+  info.stage.pSpecializationInfo = &specialization.info;
+  info.layout = layout;
+  VkPipeline pipeline = VK_NULL_HANDLE;
+  check(device_.vk().CreateComputePipelines(device_.handle(), device_.info().pipelineCache, 1,
+                                            &info, nullptr, &pipeline),
+        "vkCreateComputePipelines");
+  return pipeline;
+}
+
+VkPipeline Pipelines::makeBlend(const PipelineKey& key) {
+  const Module vertex(device_, composite_vert_spv);
+  const Module fragment(device_, composite_blend_frag_spv);
+  const Specialization specialization(key);
+  std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
+  for (auto& stage : stages) {
+    stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    stage.pName = "main";
+  }
+  stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
+  stages[0].module = vertex.handle();
+  stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
+  stages[1].module = fragment.handle();
+  stages[1].pSpecializationInfo = &specialization.info;
+
+  const VkPipelineVertexInputStateCreateInfo vertexInput{
+      VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+  VkPipelineInputAssemblyStateCreateInfo assembly{
+      VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+  assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+  VkPipelineViewportStateCreateInfo viewport{
+      VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
+  viewport.viewportCount = viewport.scissorCount = 1;
+  VkPipelineRasterizationStateCreateInfo raster{
+      VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+  raster.cullMode = VK_CULL_MODE_NONE;
+  raster.lineWidth = 1.0f;
+  VkPipelineMultisampleStateCreateInfo samples{
+      VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
+  samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+  // target = radiance + target * transmittance; the engine's alpha stays.
+  VkPipelineColorBlendAttachmentState blend{};
+  blend.blendEnable = VK_TRUE;
+  blend.srcColorBlendFactor = VK_BLEND_FACTOR_ONE;
+  blend.dstColorBlendFactor = VK_BLEND_FACTOR_SRC1_COLOR;
+  blend.colorBlendOp = VK_BLEND_OP_ADD;
+  blend.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
+  blend.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+  blend.alphaBlendOp = VK_BLEND_OP_ADD;
+  blend.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+                         VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+  VkPipelineColorBlendStateCreateInfo blending{
+      VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
+  blending.attachmentCount = 1;
+  blending.pAttachments = &blend;
+  const std::array dynamicStates{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+  VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+  dynamic.dynamicStateCount = static_cast<uint32_t>(dynamicStates.size());
+  dynamic.pDynamicStates = dynamicStates.data();
+  VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
+  rendering.colorAttachmentCount = 1;
+  rendering.pColorAttachmentFormats = &key.format;
+
+  VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
+  info.pNext = &rendering;
+  info.stageCount = static_cast<uint32_t>(stages.size());
+  info.pStages = stages.data();
+  info.pVertexInputState = &vertexInput;
+  info.pInputAssemblyState = &assembly;
+  info.pViewportState = &viewport;
+  info.pRasterizationState = &raster;
+  info.pMultisampleState = &samples;
+  info.pColorBlendState = &blending;
+  info.pDynamicState = &dynamic;
+  info.layout = compositeLayout_;
+  VkPipeline pipeline = VK_NULL_HANDLE;
+  check(device_.vk().CreateGraphicsPipelines(device_.handle(), device_.info().pipelineCache, 1,
+                                             &info, nullptr, &pipeline),
+        "vkCreateGraphicsPipelines");
+  return pipeline;
+}
+
+}  // namespace welkin::vk

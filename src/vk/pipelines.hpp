@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Pipelines by pass and specialisation constants, made in wlkPrepare and only looked up while
+// recording; the descriptor set layouts of the passes.
+#pragma once
+
+#include <array>
+#include <memory_resource>
+#include <vector>
+
+#include "vk/device.hpp"
+
+namespace welkin::vk {
+
+enum class Pass : uint32_t { LightSlices, EyeSlices, Composite, CompositeBlend };
+
+// Values of constant_id 0, 1, 2, ... of the pass; booleans are 0 or 1.
+struct PipelineKey {
+  Pass pass = Pass::Composite;
+  VkFormat format = VK_FORMAT_UNDEFINED;  // colour attachment of CompositeBlend
+  std::array<uint32_t, 10> constants{};
+  bool operator==(const PipelineKey&) const = default;
+};
+
+// Bindings of the volume passes and of the composite, see shaders/pass.
+enum VolumeBinding : uint32_t {
+  BIND_FRAME = 0,
+  BIND_VOLUME = 1,
+  BIND_LIGHT_STORAGE = 2,
+  BIND_LIGHT_SAMPLED = 3,
+  BIND_FIELD0 = 4,
+  BIND_TABLE = 8,
+  BIND_DEPTH = 9,
+  BIND_FRAME_STATE = 10,
+  BIND_VOLUME_STATE = 11,
+  VOLUME_BINDING_COUNT = 12
+};
+enum CompositeBinding : uint32_t {
+  BIND_COMPOSITE_FRAME = 0,
+  BIND_COMPOSITE_STATE = 1,
+  BIND_COMPOSITE_DEPTH = 2,
+  BIND_COMPOSITE_INPUT = 3,
+  BIND_COMPOSITE_TARGET0 = 4,
+  BIND_COMPOSITE_TARGET1 = 5,
+  BIND_COMPOSITE_COUNTERS = 6,
+  COMPOSITE_BINDING_COUNT = 7
+};
+
+class Pipelines {
+ public:
+  Pipelines(Device& device, std::pmr::memory_resource* host);
+  ~Pipelines();
+  Pipelines(const Pipelines&) = delete;
+  Pipelines& operator=(const Pipelines&) = delete;
+
+  // Makes the pipeline if it does not exist.
+  void prepare(const PipelineKey& key);
+  // VK_NULL_HANDLE if it was not prepared.
+  VkPipeline find(const PipelineKey& key) const;
+
+  VkDescriptorSetLayout volumeSetLayout() const { return volumeSet_; }
+  VkDescriptorSetLayout compositeSetLayout() const { return compositeSet_; }
+  VkPipelineLayout volumeLayout() const { return volumeLayout_; }
+  VkPipelineLayout compositeLayout() const { return compositeLayout_; }
+  VkSampler linear() const { return linear_; }
+  VkSampler nearest() const { return nearest_; }
+
+ private:
+  void destroy();
+  VkPipeline makeCompute(const PipelineKey& key);
+  VkPipeline makeBlend(const PipelineKey& key);
+
+  struct Entry {
+    PipelineKey key;
+    VkPipeline pipeline;
+  };
+  Device& device_;
+  std::pmr::vector<Entry> entries_;
+  VkDescriptorSetLayout volumeSet_ = VK_NULL_HANDLE;
+  VkDescriptorSetLayout compositeSet_ = VK_NULL_HANDLE;
+  VkPipelineLayout volumeLayout_ = VK_NULL_HANDLE;
+  VkPipelineLayout compositeLayout_ = VK_NULL_HANDLE;
+  VkSampler linear_ = VK_NULL_HANDLE;
+  VkSampler nearest_ = VK_NULL_HANDLE;
+};
+
+}  // namespace welkin::vk

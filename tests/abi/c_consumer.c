@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * A C99 program that calls every function: on a CPU context those that need no device must work,
+ * and those that need one must say so. Counts, allocations and handles are checked on the way.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <welkin/welkin_vulkan.h>
+
+#define INIT(sType, structure) \
+  EXPECT(WLK_SUCCESS, wlkInitStruct(sType, sizeof structure, &structure))
+#define EXPECT(expected, call) expectResult(expected, call, #call, __LINE__)
+#define REQUIRE(condition) require(condition, #condition, __LINE__)
+
+static int failures = 0;
+static long long liveBlocks = 0;
+
+static void require(int condition, const char* text, int line) {
+  if (!condition) {
+    fprintf(stderr, "line %d: not true: %s\n", line, text);
+    ++failures;
+  }
+}
+
+static void expectResult(WlkResult expected, WlkResult result, const char* call, int line) {
+  if (result != expected) {
+    WlkErrorInfo info;
+    memset(&info, 0, sizeof info);
+    (void)wlkInitStruct(WLK_STRUCT_ERROR_INFO, sizeof info, &info);
+    (void)wlkGetLastError(&info);
+    fprintf(stderr, "line %d: %s gave %s (%s: %s), expected %s\n", line, call,
+            wlkResultName(result), info.field, info.message, wlkResultName(expected));
+    ++failures;
+  }
+}
+
+static void* allocate(void* user, uint64_t size, uint64_t alignment) {
+  void* memory = NULL;
+  (void)user;
+  /* C99 has no aligned allocation: room for the alignment and for the block's own address. */
+  void* block = malloc((size_t)(size + alignment + sizeof(void*)));
+  if (block != NULL) {
+    uintptr_t first = (uintptr_t)block + sizeof(void*);
+    memory = (void*)((first + (uintptr_t)alignment - 1u) & ~((uintptr_t)alignment - 1u));
+    memcpy((char*)memory - sizeof(void*), &block, sizeof block);
+    ++liveBlocks;
+  }
+  return memory;
+}
+
+static void release(void* user, void* memory, uint64_t size, uint64_t alignment) {
+  void* block = NULL;
+  (void)user;
+  (void)size;
+  (void)alignment;
+  memcpy(&block, (char*)memory - sizeof(void*), sizeof block);
+  free(block);
+  --liveBlocks;
+}
+
+static WlkContext createContext(void) {
+  WlkContextInfo info;
+  WlkContext context = NULL;
+  INIT(WLK_STRUCT_CONTEXT_INFO, info);
+  REQUIRE(info.apiVersion == WLK_API_VERSION && info.maxFramesInFlight == 3);
+  info.allocator.allocate = allocate;
+  info.allocator.release = release;
+  EXPECT(WLK_SUCCESS, wlkCreateContext(&info, &context));
+  return context;
+}
+
+static void freeFunctions(void) {
+  WlkErrorInfo error;
+  WlkSky sky;
+  REQUIRE(wlkGetVersion() == WLK_API_VERSION);
+  REQUIRE(strcmp(wlkResultName(WLK_ERROR_VERSION), "WLK_ERROR_VERSION") == 0);
+  REQUIRE(strcmp(wlkResultName(12345), "WLK_UNKNOWN_RESULT") == 0);
+  REQUIRE(strcmp(wlkReasonName(WLK_REASON_ZERO_DENSITY), "WLK_REASON_ZERO_DENSITY") == 0);
+  EXPECT(WLK_ERROR_UNKNOWN_STRUCT, wlkInitStruct(9999, sizeof sky, &sky));
+  EXPECT(WLK_ERROR_INVALID_ARGUMENT, wlkInitStruct(WLK_STRUCT_SKY, 4, &sky));
+  INIT(WLK_STRUCT_ERROR_INFO, error);
+  EXPECT(WLK_SUCCESS, wlkGetLastError(&error));
+  REQUIRE(error.result == WLK_ERROR_INVALID_ARGUMENT && error.message[0] != '\0');
+}
+
+/* Returns the number of values that are not finite or below 0. */
+static int countBad(const double* values, int count) {
+  int bad = 0;
+  for (int i = 0; i < count; ++i) {
+    bad += !(isfinite(values[i]) && values[i] >= 0.0);
+  }
+  return bad;
+}
+
+static void scene(WlkContext context) {
+  WlkPlanet planet;
+  WlkSky sky;
+  WlkLight light;
+  WlkFog fog;
+  INIT(WLK_STRUCT_PLANET, planet);
+  INIT(WLK_STRUCT_SKY, sky);
+  INIT(WLK_STRUCT_LIGHT, light);
+  INIT(WLK_STRUCT_FOG, fog);
+  EXPECT(WLK_SUCCESS, wlkSetPlanet(context, &planet));
+  EXPECT(WLK_SUCCESS, wlkSetSky(context, &sky));
+  EXPECT(WLK_SUCCESS, wlkSetLights(context, 1, sizeof light, &light));
+  EXPECT(WLK_SUCCESS, wlkSetFog(context, &fog));
+}
+
+static void queries(WlkContext context) {
+  WlkCapabilities capabilities;
+  WlkMediumInfo medium;
+  WlkRayBatch batch;
+  WlkRay ray = {{0.0, 2.0, 0.0}, {0.6, 0.8, 0.0}, INFINITY};
+  double radiance[3], transmittance[3], irradiance[3], phase[2];
+  const double angle[2] = {0.0, 1.0}, position[3] = {0.0, 2.0, 0.0};
+
+  INIT(WLK_STRUCT_CAPABILITIES, capabilities);
+  EXPECT(WLK_SUCCESS, wlkGetCapabilities(context, &capabilities));
+  REQUIRE(capabilities.mode == WLK_MODE_CPU && capabilities.vulkanVersion == 0);
+  REQUIRE(capabilities.maxLights >= 1 && capabilities.deviceName[0] == '\0');
+
+  INIT(WLK_STRUCT_RAY_BATCH, batch);
+  REQUIRE(batch.stride == sizeof ray);
+  batch.count = 1;
+  batch.rays = &ray;
+  EXPECT(WLK_SUCCESS, wlkEvalSky(context, &batch, radiance, transmittance));
+  REQUIRE(countBad(radiance, 3) == 0 && countBad(transmittance, 3) == 0);
+  REQUIRE(radiance[2] > radiance[0]); /* a clear sky is blue */
+  EXPECT(WLK_SUCCESS, wlkEvalLight(context, 0, position, irradiance));
+  REQUIRE(countBad(irradiance, 3) == 0 && irradiance[0] > irradiance[2]);
+
+  INIT(WLK_STRUCT_MEDIUM_INFO, medium);
+  EXPECT(WLK_SUCCESS, wlkEvalPhase(&medium, 2, angle, phase));
+  REQUIRE(phase[0] > phase[1] && phase[1] > 0.0);
+}
+
+static void objects(WlkContext context) {
+  static const float values[8] = {0.0f, 1.0f, 0.5f, 0.25f, 0.0f, 1.0f, 0.5f, 0.25f};
+  const double moved[12] = {10, 0, 0, 5, 0, 10, 0, 5, 0, 0, 10, 5};
+  WlkMediumInfo mediumInfo;
+  WlkVolumeInfo volumeInfo;
+  WlkVolumeUpload upload;
+  WlkVolumeField field;
+  WlkMedium medium = {0};
+  WlkVolume volume = {0};
+
+  INIT(WLK_STRUCT_MEDIUM_INFO, mediumInfo);
+  EXPECT(WLK_SUCCESS, wlkCreateMedium(context, &mediumInfo, &medium));
+  INIT(WLK_STRUCT_VOLUME_INFO, volumeInfo);
+  REQUIRE(volumeInfo.fieldStride == sizeof field);
+  memset(&field, 0, sizeof field);
+  field.medium = medium;
+  field.extinctionScale = 0.05f;
+  volumeInfo.size[0] = volumeInfo.size[1] = volumeInfo.size[2] = 2;
+  volumeInfo.fieldCount = 1;
+  volumeInfo.fields = &field;
+  EXPECT(WLK_SUCCESS, wlkCreateVolume(context, &volumeInfo, &volume));
+  EXPECT(WLK_SUCCESS, wlkSetVolumeTransform(context, volume, moved));
+  INIT(WLK_STRUCT_VOLUME_UPLOAD, upload);
+  upload.extent[0] = upload.extent[1] = upload.extent[2] = 2;
+  upload.data = values;
+  upload.dataSize = sizeof values;
+  EXPECT(WLK_SUCCESS, wlkUploadVolume(context, volume, &upload));
+  upload.dataSize -= 1;
+  EXPECT(WLK_ERROR_INVALID_ARGUMENT, wlkUploadVolume(context, volume, &upload));
+  EXPECT(WLK_ERROR_WRONG_STATE, wlkDestroyMedium(context, medium));
+  EXPECT(WLK_SUCCESS, wlkDestroyVolume(context, volume));
+  EXPECT(WLK_ERROR_INVALID_HANDLE, wlkDestroyVolume(context, volume));
+  EXPECT(WLK_SUCCESS, wlkDestroyMedium(context, medium));
+}
+
+/* Every function that needs a device refuses a CPU context with a negative code. */
+static void deviceFunctions(WlkContext context) {
+  WlkViewInfo viewInfo;
+  WlkCamera camera;
+  WlkQuality quality;
+  WlkFrameInfo frame;
+  WlkImageData image;
+  WlkFrameStats stats;
+  WlkVulkanRequirements requirements;
+  WlkVulkanViewTargets targets;
+  WlkView view = {0};
+  WlkVolume volume = {0};
+  uint32_t passCount = 0;
+
+  INIT(WLK_STRUCT_VULKAN_REQUIREMENTS, requirements);
+  EXPECT(WLK_SUCCESS, wlkVulkanGetRequirements(&requirements));
+  REQUIRE(requirements.apiVersion >= VK_API_VERSION_1_3);
+
+  INIT(WLK_STRUCT_VIEW_INFO, viewInfo);
+  INIT(WLK_STRUCT_CAMERA, camera);
+  INIT(WLK_STRUCT_QUALITY, quality);
+  INIT(WLK_STRUCT_FRAME_INFO, frame);
+  INIT(WLK_STRUCT_IMAGE_DATA, image);
+  INIT(WLK_STRUCT_FRAME_STATS, stats);
+  INIT(WLK_STRUCT_VULKAN_VIEW_TARGETS, targets);
+  frame.frameIndex = 1;
+  EXPECT(WLK_ERROR_WRONG_STATE, wlkPrepare(context));
+  EXPECT(WLK_ERROR_WRONG_STATE, wlkBeginFrame(context, &frame));
+  REQUIRE(wlkCreateView(NULL, &viewInfo, &view) < 0);
+  REQUIRE(wlkUpdateView(context, view, &viewInfo) < 0);
+  REQUIRE(wlkSetCamera(context, view, &camera) < 0);
+  REQUIRE(wlkSetQuality(context, view, &quality) < 0);
+  REQUIRE(wlkRenderHeadless(context, view, NULL) < 0);
+  REQUIRE(wlkReadback(context, view, &image) < 0);
+  REQUIRE(wlkGetFrameStats(context, view, &stats, &passCount, NULL) < 0);
+  REQUIRE(wlkDestroyView(context, view) < 0);
+  REQUIRE(wlkVulkanSetVolumeImage(context, volume, 0, NULL) < 0);
+  REQUIRE(wlkVulkanForgetImage(context, VK_NULL_HANDLE) < 0);
+  REQUIRE(wlkVulkanCmdUpdate(context, NULL) < 0);
+  REQUIRE(wlkVulkanCmdRenderView(context, NULL, view, &targets) < 0);
+}
+
+int main(void) {
+  WlkContext context = NULL;
+  freeFunctions();
+  wlkDestroyContext(NULL);
+  context = createContext();
+  if (context == NULL) {
+    return 1;
+  }
+  REQUIRE(liveBlocks > 0);
+  scene(context);
+  queries(context);
+  objects(context);
+  deviceFunctions(context);
+  wlkDestroyContext(context);
+  REQUIRE(liveBlocks == 0);
+  return failures == 0 ? 0 : 1;
+}

@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Writes symbols.txt and layout_test.c from the public headers, or with --check compares.
+
+Run it after an intended change of the API; the diff of the two files is then the ABI change to
+review. The offsets come from the compiler, so x86-64 Linux with gcc is needed.
+"""
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+INCLUDE = HERE.parent.parent / "include"
+HEADERS = ("welkin.h", "welkin_vulkan.h")
+NODE = "WELKIN_0.1"
+
+BANNER = """/* SPDX-License-Identifier: MIT
+ *
+ * Layout of the C API on x86-64: compiling this file is the test. Written by generate.py; a
+ * difference here is an ABI break unless a structure only grew at its end.
+ */
+#include <stddef.h>
+#include <welkin/welkin_vulkan.h>
+
+#define SIZE(type, size) _Static_assert(sizeof(type) == (size), "size of " #type)
+#define AT(type, field, offset) \\
+  _Static_assert(offsetof(type, field) == (offset), #type "::" #field)
+#define VALUE(name, value) _Static_assert((long long)(name) == (value), #name)
+"""
+
+
+def without_comments(text):
+    return re.sub(r"/\*.*?\*/|//[^\n]*", "", text, flags=re.S)
+
+
+def functions(text):
+    return re.findall(r"WLK_API\b[^;{]*?\b(wlk\w+)\s*\(", text)
+
+
+def enumerators(text):
+    for body in re.findall(r"\benum\b\s*\w*\s*\{([^}]*)\}", text):
+        yield from re.findall(r"\b(WLK_\w+)\b\s*=", body)
+
+
+def macros(text):
+    return re.findall(r"#define (WLK_(?:MAX|NAME|MESSAGE|VERSION)_\w+) +\d+u?\b", text)
+
+
+def structs(text):
+    for name, body in re.findall(r"typedef struct (\w+) \{(.*?)\} \1;", text, flags=re.S):
+        fields = []
+        for declaration in body.split(";"):
+            pointer = re.search(r"\(\*(\w+)\)\s*\(", declaration)
+            plain = re.search(r"(\w+)\s*(?:\[[^\]]*\]\s*)*$", declaration.strip())
+            if pointer or plain:
+                fields.append((pointer or plain).group(1))
+        yield name, fields
+
+
+def layout(text):
+    """Asserts, with the numbers that a small C program prints."""
+    lines = ['#include <stddef.h>', '#include <stdio.h>', '#include <welkin/welkin_vulkan.h>',
+             'int main(void) {']
+    for name, fields in structs(text):
+        lines.append(f'printf("\\nSIZE({name}, %zu);\\n", sizeof({name}));')
+        for field in fields:
+            lines.append(f'printf("AT({name}, {field}, %zu);\\n", offsetof({name}, {field}));')
+    lines.append('puts("");')
+    for name in [*enumerators(text), *macros(text)]:
+        lines.append(f'printf("VALUE({name}, %lld);\\n", (long long)({name}));')
+    lines.append('return 0; }')
+    with tempfile.TemporaryDirectory() as folder:
+        source = pathlib.Path(folder) / "print.c"
+        source.write_text("\n".join(lines))
+        program = pathlib.Path(folder) / "print"
+        subprocess.run(["gcc", "-std=c11", f"-I{INCLUDE}", source, "-o", program], check=True)
+        return subprocess.run([program], check=True, capture_output=True, text=True).stdout
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--check", action="store_true", help="write nothing, fail on a difference")
+    check = parser.parse_args().check
+    text = without_comments("".join((INCLUDE / "welkin" / h).read_text() for h in HEADERS))
+    names = sorted(functions(text))
+    outputs = {"symbols.txt": "".join(f"{name}@@{NODE}\n" for name in names),
+               "layout_test.c": BANNER + layout(text)}
+    failed = 0
+    for name, content in outputs.items():
+        path = HERE / name
+        if not check:
+            path.write_text(content)
+        elif not path.exists() or path.read_text() != content:
+            print(f"{name} does not describe the headers: if the change of the API is intended, "
+                  "run tests/abi/generate.py and review the difference")
+            failed = 1
+    return failed
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,391 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Layout of the C API on x86-64: compiling this file is the test. Written by generate.py; a
+ * difference here is an ABI break unless a structure only grew at its end.
+ */
+#include <stddef.h>
+#include <welkin/welkin_vulkan.h>
+
+#define SIZE(type, size) _Static_assert(sizeof(type) == (size), "size of " #type)
+#define AT(type, field, offset) \
+  _Static_assert(offsetof(type, field) == (offset), #type "::" #field)
+#define VALUE(name, value) _Static_assert((long long)(name) == (value), #name)
+
+SIZE(WlkErrorInfo, 352);
+AT(WlkErrorInfo, sType, 0);
+AT(WlkErrorInfo, structSize, 4);
+AT(WlkErrorInfo, next, 8);
+AT(WlkErrorInfo, result, 16);
+AT(WlkErrorInfo, structType, 20);
+AT(WlkErrorInfo, vkResult, 24);
+AT(WlkErrorInfo, reserved0, 28);
+AT(WlkErrorInfo, field, 32);
+AT(WlkErrorInfo, message, 96);
+
+SIZE(WlkMedium, 8);
+AT(WlkMedium, id, 0);
+
+SIZE(WlkVolume, 8);
+AT(WlkVolume, id, 0);
+
+SIZE(WlkView, 8);
+AT(WlkView, id, 0);
+
+SIZE(WlkAllocator, 24);
+AT(WlkAllocator, user, 0);
+AT(WlkAllocator, allocate, 8);
+AT(WlkAllocator, release, 16);
+
+SIZE(WlkContextInfo, 64);
+AT(WlkContextInfo, sType, 0);
+AT(WlkContextInfo, structSize, 4);
+AT(WlkContextInfo, next, 8);
+AT(WlkContextInfo, apiVersion, 16);
+AT(WlkContextInfo, maxFramesInFlight, 20);
+AT(WlkContextInfo, allocator, 24);
+AT(WlkContextInfo, log, 48);
+AT(WlkContextInfo, logUser, 56);
+
+SIZE(WlkHeadlessInfo, 32);
+AT(WlkHeadlessInfo, sType, 0);
+AT(WlkHeadlessInfo, structSize, 4);
+AT(WlkHeadlessInfo, next, 8);
+AT(WlkHeadlessInfo, flags, 16);
+AT(WlkHeadlessInfo, deviceName, 24);
+
+SIZE(WlkCapabilities, 296);
+AT(WlkCapabilities, sType, 0);
+AT(WlkCapabilities, structSize, 4);
+AT(WlkCapabilities, next, 8);
+AT(WlkCapabilities, mode, 16);
+AT(WlkCapabilities, vulkanVersion, 20);
+AT(WlkCapabilities, maxLights, 24);
+AT(WlkCapabilities, maxVolumeSize, 28);
+AT(WlkCapabilities, blendSupported, 32);
+AT(WlkCapabilities, reserved0, 36);
+AT(WlkCapabilities, deviceName, 40);
+
+SIZE(WlkPlanet, 72);
+AT(WlkPlanet, sType, 0);
+AT(WlkPlanet, structSize, 4);
+AT(WlkPlanet, next, 8);
+AT(WlkPlanet, seaLevelPoint, 16);
+AT(WlkPlanet, up, 40);
+AT(WlkPlanet, radius, 52);
+AT(WlkPlanet, groundAlbedo, 56);
+AT(WlkPlanet, reserved0, 68);
+
+SIZE(WlkSky, 32);
+AT(WlkSky, sType, 0);
+AT(WlkSky, structSize, 4);
+AT(WlkSky, next, 8);
+AT(WlkSky, rayleighScattering, 16);
+AT(WlkSky, scaleHeight, 28);
+
+SIZE(WlkLight, 48);
+AT(WlkLight, sType, 0);
+AT(WlkLight, structSize, 4);
+AT(WlkLight, next, 8);
+AT(WlkLight, direction, 16);
+AT(WlkLight, angularDiameter, 28);
+AT(WlkLight, irradiance, 32);
+AT(WlkLight, reserved0, 44);
+
+SIZE(WlkFog, 48);
+AT(WlkFog, sType, 0);
+AT(WlkFog, structSize, 4);
+AT(WlkFog, next, 8);
+AT(WlkFog, dropletDiameter_um, 16);
+AT(WlkFog, extinction, 20);
+AT(WlkFog, baseAltitude, 24);
+AT(WlkFog, scaleHeight, 28);
+AT(WlkFog, singleScatteringAlbedo, 32);
+AT(WlkFog, reserved0, 44);
+
+SIZE(WlkMediumInfo, 40);
+AT(WlkMediumInfo, sType, 0);
+AT(WlkMediumInfo, structSize, 4);
+AT(WlkMediumInfo, next, 8);
+AT(WlkMediumInfo, phase, 16);
+AT(WlkMediumInfo, dropletDiameter_um, 20);
+AT(WlkMediumInfo, asymmetry, 24);
+AT(WlkMediumInfo, singleScatteringAlbedo, 28);
+
+SIZE(WlkVolumeField, 16);
+AT(WlkVolumeField, medium, 0);
+AT(WlkVolumeField, extinctionScale, 8);
+AT(WlkVolumeField, reserved0, 12);
+
+SIZE(WlkVolumeInfo, 144);
+AT(WlkVolumeInfo, sType, 0);
+AT(WlkVolumeInfo, structSize, 4);
+AT(WlkVolumeInfo, next, 8);
+AT(WlkVolumeInfo, size, 16);
+AT(WlkVolumeInfo, fieldCount, 28);
+AT(WlkVolumeInfo, fieldStride, 32);
+AT(WlkVolumeInfo, reserved0, 36);
+AT(WlkVolumeInfo, fields, 40);
+AT(WlkVolumeInfo, worldFromVolume, 48);
+
+SIZE(WlkVolumeUpload, 80);
+AT(WlkVolumeUpload, sType, 0);
+AT(WlkVolumeUpload, structSize, 4);
+AT(WlkVolumeUpload, next, 8);
+AT(WlkVolumeUpload, field, 16);
+AT(WlkVolumeUpload, format, 20);
+AT(WlkVolumeUpload, offset, 24);
+AT(WlkVolumeUpload, extent, 36);
+AT(WlkVolumeUpload, rowPitch, 48);
+AT(WlkVolumeUpload, slicePitch, 56);
+AT(WlkVolumeUpload, data, 64);
+AT(WlkVolumeUpload, dataSize, 72);
+
+SIZE(WlkViewInfo, 40);
+AT(WlkViewInfo, sType, 0);
+AT(WlkViewInfo, structSize, 4);
+AT(WlkViewInfo, next, 8);
+AT(WlkViewInfo, width, 16);
+AT(WlkViewInfo, height, 20);
+AT(WlkViewInfo, composite, 24);
+AT(WlkViewInfo, targetFormat, 28);
+AT(WlkViewInfo, layers, 32);
+
+SIZE(WlkCamera, 144);
+AT(WlkCamera, sType, 0);
+AT(WlkCamera, structSize, 4);
+AT(WlkCamera, next, 8);
+AT(WlkCamera, position, 16);
+AT(WlkCamera, viewFromWorld, 40);
+AT(WlkCamera, preExposure, 76);
+AT(WlkCamera, clipFromView, 80);
+
+SIZE(WlkQuality, 48);
+AT(WlkQuality, sType, 0);
+AT(WlkQuality, structSize, 4);
+AT(WlkQuality, next, 8);
+AT(WlkQuality, level, 16);
+AT(WlkQuality, sliceCount, 20);
+AT(WlkQuality, batchSize, 24);
+AT(WlkQuality, lightBufferSize, 28);
+AT(WlkQuality, slicing, 32);
+AT(WlkQuality, scattering, 36);
+AT(WlkQuality, flags, 40);
+
+SIZE(WlkFrameInfo, 32);
+AT(WlkFrameInfo, sType, 0);
+AT(WlkFrameInfo, structSize, 4);
+AT(WlkFrameInfo, next, 8);
+AT(WlkFrameInfo, frameIndex, 16);
+AT(WlkFrameInfo, completedFrameIndex, 24);
+
+SIZE(WlkHeadlessTargets, 32);
+AT(WlkHeadlessTargets, sType, 0);
+AT(WlkHeadlessTargets, structSize, 4);
+AT(WlkHeadlessTargets, next, 8);
+AT(WlkHeadlessTargets, color, 16);
+AT(WlkHeadlessTargets, depth, 24);
+
+SIZE(WlkImageData, 40);
+AT(WlkImageData, sType, 0);
+AT(WlkImageData, structSize, 4);
+AT(WlkImageData, next, 8);
+AT(WlkImageData, image, 16);
+AT(WlkImageData, reserved0, 20);
+AT(WlkImageData, data, 24);
+AT(WlkImageData, dataSize, 32);
+
+SIZE(WlkPassStats, 104);
+AT(WlkPassStats, name, 0);
+AT(WlkPassStats, pass, 64);
+AT(WlkPassStats, recorded, 68);
+AT(WlkPassStats, reason, 72);
+AT(WlkPassStats, commands, 76);
+AT(WlkPassStats, volume, 80);
+AT(WlkPassStats, invocations, 88);
+AT(WlkPassStats, gpuTime_ns, 96);
+
+SIZE(WlkFrameStats, 72);
+AT(WlkFrameStats, sType, 0);
+AT(WlkFrameStats, structSize, 4);
+AT(WlkFrameStats, next, 8);
+AT(WlkFrameStats, frameIndex, 16);
+AT(WlkFrameStats, dispatches, 24);
+AT(WlkFrameStats, draws, 28);
+AT(WlkFrameStats, barriers, 32);
+AT(WlkFrameStats, descriptorWrites, 36);
+AT(WlkFrameStats, bytesUploaded, 40);
+AT(WlkFrameStats, deviceMemory, 48);
+AT(WlkFrameStats, hostMemory, 56);
+AT(WlkFrameStats, nonFinitePixels, 64);
+
+SIZE(WlkRay, 56);
+AT(WlkRay, origin, 0);
+AT(WlkRay, direction, 24);
+AT(WlkRay, length, 48);
+
+SIZE(WlkRayBatch, 32);
+AT(WlkRayBatch, sType, 0);
+AT(WlkRayBatch, structSize, 4);
+AT(WlkRayBatch, next, 8);
+AT(WlkRayBatch, count, 16);
+AT(WlkRayBatch, stride, 20);
+AT(WlkRayBatch, rays, 24);
+
+SIZE(WlkVulkanRequirements, 64);
+AT(WlkVulkanRequirements, sType, 0);
+AT(WlkVulkanRequirements, structSize, 4);
+AT(WlkVulkanRequirements, next, 8);
+AT(WlkVulkanRequirements, apiVersion, 16);
+AT(WlkVulkanRequirements, queueFlags, 20);
+AT(WlkVulkanRequirements, synchronization2, 24);
+AT(WlkVulkanRequirements, dynamicRendering, 28);
+AT(WlkVulkanRequirements, shaderStorageImageWriteWithoutFormat, 32);
+AT(WlkVulkanRequirements, dualSrcBlend, 36);
+AT(WlkVulkanRequirements, depthUsage, 40);
+AT(WlkVulkanRequirements, colorInputUsage, 44);
+AT(WlkVulkanRequirements, storageTargetUsage, 48);
+AT(WlkVulkanRequirements, blendTargetUsage, 52);
+AT(WlkVulkanRequirements, volumeUsage, 56);
+AT(WlkVulkanRequirements, reserved0, 60);
+
+SIZE(WlkVulkanDeviceInfo, 72);
+AT(WlkVulkanDeviceInfo, sType, 0);
+AT(WlkVulkanDeviceInfo, structSize, 4);
+AT(WlkVulkanDeviceInfo, next, 8);
+AT(WlkVulkanDeviceInfo, getInstanceProcAddr, 16);
+AT(WlkVulkanDeviceInfo, instance, 24);
+AT(WlkVulkanDeviceInfo, physicalDevice, 32);
+AT(WlkVulkanDeviceInfo, device, 40);
+AT(WlkVulkanDeviceInfo, apiVersion, 48);
+AT(WlkVulkanDeviceInfo, queueFamilyIndex, 52);
+AT(WlkVulkanDeviceInfo, dualSrcBlendEnabled, 56);
+AT(WlkVulkanDeviceInfo, reserved0, 60);
+AT(WlkVulkanDeviceInfo, pipelineCache, 64);
+
+SIZE(WlkVulkanImageState, 24);
+AT(WlkVulkanImageState, layout, 0);
+AT(WlkVulkanImageState, reserved0, 4);
+AT(WlkVulkanImageState, stages, 8);
+AT(WlkVulkanImageState, access, 16);
+
+SIZE(WlkVulkanImage, 88);
+AT(WlkVulkanImage, sType, 0);
+AT(WlkVulkanImage, structSize, 4);
+AT(WlkVulkanImage, next, 8);
+AT(WlkVulkanImage, image, 16);
+AT(WlkVulkanImage, format, 24);
+AT(WlkVulkanImage, width, 28);
+AT(WlkVulkanImage, height, 32);
+AT(WlkVulkanImage, depth, 36);
+AT(WlkVulkanImage, before, 40);
+AT(WlkVulkanImage, after, 64);
+
+SIZE(WlkVulkanViewTargets, 56);
+AT(WlkVulkanViewTargets, sType, 0);
+AT(WlkVulkanViewTargets, structSize, 4);
+AT(WlkVulkanViewTargets, next, 8);
+AT(WlkVulkanViewTargets, depth, 16);
+AT(WlkVulkanViewTargets, colorInput, 24);
+AT(WlkVulkanViewTargets, color, 32);
+AT(WlkVulkanViewTargets, radiance, 40);
+AT(WlkVulkanViewTargets, transmittance, 48);
+
+VALUE(WLK_SUCCESS, 0);
+VALUE(WLK_NOT_READY, 1);
+VALUE(WLK_INCOMPLETE, 2);
+VALUE(WLK_ERROR_INVALID_ARGUMENT, -1);
+VALUE(WLK_ERROR_INVALID_HANDLE, -2);
+VALUE(WLK_ERROR_UNKNOWN_STRUCT, -3);
+VALUE(WLK_ERROR_STRUCT_TOO_NEW, -4);
+VALUE(WLK_ERROR_VERSION, -5);
+VALUE(WLK_ERROR_OUT_OF_HOST_MEMORY, -6);
+VALUE(WLK_ERROR_OUT_OF_DEVICE_MEMORY, -7);
+VALUE(WLK_ERROR_DEVICE_LOST, -8);
+VALUE(WLK_ERROR_UNSUPPORTED_FORMAT, -9);
+VALUE(WLK_ERROR_MISSING_FEATURE, -10);
+VALUE(WLK_ERROR_FRAMES_IN_FLIGHT, -11);
+VALUE(WLK_ERROR_NOT_PREPARED, -12);
+VALUE(WLK_ERROR_WRONG_STATE, -13);
+VALUE(WLK_ERROR_LIMIT_EXCEEDED, -14);
+VALUE(WLK_ERROR_NO_DEVICE, -15);
+VALUE(WLK_ERROR_INTERNAL, -16);
+VALUE(WLK_STRUCT_ERROR_INFO, 1);
+VALUE(WLK_STRUCT_CONTEXT_INFO, 2);
+VALUE(WLK_STRUCT_HEADLESS_INFO, 3);
+VALUE(WLK_STRUCT_CAPABILITIES, 4);
+VALUE(WLK_STRUCT_PLANET, 10);
+VALUE(WLK_STRUCT_SKY, 11);
+VALUE(WLK_STRUCT_LIGHT, 12);
+VALUE(WLK_STRUCT_FOG, 13);
+VALUE(WLK_STRUCT_MEDIUM_INFO, 20);
+VALUE(WLK_STRUCT_VOLUME_INFO, 21);
+VALUE(WLK_STRUCT_VOLUME_UPLOAD, 22);
+VALUE(WLK_STRUCT_VIEW_INFO, 30);
+VALUE(WLK_STRUCT_CAMERA, 31);
+VALUE(WLK_STRUCT_QUALITY, 32);
+VALUE(WLK_STRUCT_FRAME_INFO, 40);
+VALUE(WLK_STRUCT_HEADLESS_TARGETS, 41);
+VALUE(WLK_STRUCT_IMAGE_DATA, 42);
+VALUE(WLK_STRUCT_FRAME_STATS, 43);
+VALUE(WLK_STRUCT_RAY_BATCH, 50);
+VALUE(WLK_STRUCT_VULKAN_DEVICE_INFO, 1000);
+VALUE(WLK_STRUCT_VULKAN_REQUIREMENTS, 1001);
+VALUE(WLK_STRUCT_VULKAN_IMAGE, 1002);
+VALUE(WLK_STRUCT_VULKAN_VIEW_TARGETS, 1003);
+VALUE(WLK_LOG_ERROR, 1);
+VALUE(WLK_LOG_WARNING, 2);
+VALUE(WLK_LOG_INFO, 3);
+VALUE(WLK_HEADLESS_VALIDATION, 1);
+VALUE(WLK_MODE_CPU, 0);
+VALUE(WLK_MODE_HEADLESS, 1);
+VALUE(WLK_MODE_ENGINE_DEVICE, 2);
+VALUE(WLK_PHASE_HG_DRAINE, 0);
+VALUE(WLK_PHASE_HENYEY_GREENSTEIN, 1);
+VALUE(WLK_PHASE_RAYLEIGH, 2);
+VALUE(WLK_FORMAT_R32_FLOAT, 1);
+VALUE(WLK_FORMAT_R16_FLOAT, 2);
+VALUE(WLK_FORMAT_R8_UNORM, 3);
+VALUE(WLK_COMPOSITE_COMPUTE, 0);
+VALUE(WLK_COMPOSITE_BLEND, 1);
+VALUE(WLK_COMPOSITE_SEPARATE, 2);
+VALUE(WLK_LAYER_SKY, 1);
+VALUE(WLK_LAYER_FOG, 2);
+VALUE(WLK_LAYER_VOLUMES, 4);
+VALUE(WLK_LAYER_SUN_DISK, 8);
+VALUE(WLK_LAYER_GROUND, 16);
+VALUE(WLK_LAYER_ALL, 31);
+VALUE(WLK_TARGET_RGBA16_FLOAT, 1);
+VALUE(WLK_TARGET_RGBA32_FLOAT, 2);
+VALUE(WLK_TARGET_B10G11R11_FLOAT, 3);
+VALUE(WLK_QUALITY_LOW, 0);
+VALUE(WLK_QUALITY_MEDIUM, 1);
+VALUE(WLK_QUALITY_HIGH, 2);
+VALUE(WLK_QUALITY_ULTRA, 3);
+VALUE(WLK_SLICING_DEFAULT, 0);
+VALUE(WLK_SLICING_HALF_ANGLE, 1);
+VALUE(WLK_SLICING_LIGHT_ALIGNED, 2);
+VALUE(WLK_SCATTERING_DEFAULT, 0);
+VALUE(WLK_SCATTERING_SINGLE, 1);
+VALUE(WLK_SCATTERING_FORWARD, 2);
+VALUE(WLK_QUALITY_NO_SKIP, 1);
+VALUE(WLK_IMAGE_COLOR, 0);
+VALUE(WLK_IMAGE_RADIANCE, 1);
+VALUE(WLK_IMAGE_TRANSMITTANCE, 2);
+VALUE(WLK_PASS_UPLOAD, 0);
+VALUE(WLK_PASS_LIGHT_SLICES, 1);
+VALUE(WLK_PASS_EYE_SLICES, 2);
+VALUE(WLK_PASS_COMPOSITE, 3);
+VALUE(WLK_REASON_NEEDED, 0);
+VALUE(WLK_REASON_LAYER_OFF, 1);
+VALUE(WLK_REASON_NOTHING_TO_DRAW, 2);
+VALUE(WLK_REASON_ZERO_DENSITY, 3);
+VALUE(WLK_REASON_OUTSIDE_VIEW, 4);
+VALUE(WLK_REASON_NO_LIGHT, 5);
+VALUE(WLK_REASON_UNCHANGED, 6);
+VALUE(WLK_REASON_NO_SKIP_FLAG, 7);
+VALUE(WLK_VERSION_MAJOR, 0);
+VALUE(WLK_VERSION_MINOR, 1);
+VALUE(WLK_VERSION_PATCH, 0);
+VALUE(WLK_MAX_FIELDS, 4);
+VALUE(WLK_NAME_SIZE, 64);
+VALUE(WLK_MESSAGE_SIZE, 256);

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// OpenEXR files there and back, and what is refused.
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfOutputFile.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/image.hpp"
+#include "expect_input_error.hpp"
+#include "temp_folder.hpp"
+
+namespace {
+
+using host_test::expectInputError;
+
+host::Image ramp(uint32_t width, uint32_t height) {
+  host::Image image{width, height, {}};
+  for (size_t i = 0; i < image.pixelCount() * 4; ++i) {
+    image.rgba.push_back(0.1f * static_cast<float>(i) - 3.0f);
+  }
+  return image;
+}
+
+// One channel of floats with any data window.
+void writeChannel(const std::string& file, const char* channel, const Imath::Box2i& window,
+                  float value) {
+  Imf::Header header(window, window);
+  header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
+  const size_t width = static_cast<size_t>(window.max.x - window.min.x + 1);
+  std::vector<float> row(width, value);
+  Imf::FrameBuffer frame;
+  frame.insert(channel, Imf::Slice::Make(Imf::FLOAT, row.data(), window, sizeof(float), 0));
+  Imf::OutputFile output(file.c_str(), header);
+  output.setFrameBuffer(frame);
+  output.writePixels(window.max.y - window.min.y + 1);
+}
+
+TEST(HostExr, KeepsEveryBitOfAPicture) {
+  const host_test::TempFolder folder;
+  host::Image image = ramp(37, 21);
+  image.rgba[5] = 1e30f;
+  image.rgba[6] = INFINITY;
+  host::writeExr(folder.file("a.exr"), image);
+  const host::Image back = host::readExr(folder.file("a.exr"));
+  ASSERT_EQ(back.width, 37u);
+  ASSERT_EQ(back.height, 21u);
+  EXPECT_EQ(back.rgba, image.rgba);
+}
+
+TEST(HostExr, KeepsRadianceBesideTransmittance) {
+  const host_test::TempFolder folder;
+  const host::Image image = ramp(8, 4);
+  const host::Image transmittance = ramp(8, 4);
+  host::writeExr(folder.file("a.exr"), image, &transmittance);
+  EXPECT_EQ(host::readExr(folder.file("a.exr")).rgba, image.rgba);
+}
+
+TEST(HostExr, ReadsDepthFromAShiftedDataWindow) {
+  const host_test::TempFolder folder;
+  const std::string file = folder.file("z.exr");
+  writeChannel(file, "Z", {{-3, 5}, {6, 8}}, 0.25f);
+  const host::DepthImage depth = host::readExrDepth(file);
+  EXPECT_EQ(depth.width, 10u);
+  EXPECT_EQ(depth.height, 4u);
+  EXPECT_EQ(depth.values, std::vector<float>(40, 0.25f));
+}
+
+TEST(HostExr, RefusesWhatIsMissingForeignOrCutOff) {
+  const host_test::TempFolder folder;
+  expectInputError("no such file", [&] { host::readExr(folder.file("none.exr")); });
+  const std::string text = folder.write("text.exr", "this is no picture");
+  expectInputError("text.exr: expected an OpenEXR file", [&] { host::readExr(text); });
+  const std::string empty = folder.write("empty.exr", "");
+  expectInputError("expected an OpenEXR file", [&] { host::readExr(empty); });
+  for (const double keep : {0.02, 0.3, 0.7, 0.99}) {
+    const std::string cut = folder.file("cut.exr");
+    host::writeExr(cut, ramp(64, 64));
+    host_test::cutOff(cut, keep);
+    expectInputError("cut.exr: expected", [&] { host::readExr(cut); });
+  }
+}
+
+TEST(HostExr, RefusesOtherChannelsAndTooManyPixels) {
+  const host_test::TempFolder folder;
+  const std::string file = folder.file("y.exr");
+  writeChannel(file, "Y", {{0, 0}, {3, 3}}, 1.0f);
+  expectInputError("channel R", [&] { host::readExr(file); });
+  expectInputError("channel Z", [&] { host::readExrDepth(file); });
+  writeChannel(file, "Z", {{0, 0}, {static_cast<int>(host::MAX_IMAGE_EDGE), 0}}, 1.0f);
+  expectInputError("dataWindow: expected 1 to 16384", [&] { host::readExrDepth(file); });
+}
+
+TEST(HostPng, MapsBlackToBlackAndBrightToWhiteMonotonically) {
+  for (const host::ToneMap map : {host::ToneMap::Linear, host::ToneMap::Filmic}) {
+    double last = 0.0;
+    for (double x = 0.0; x < 64.0; x += 1.0 / 64.0) {
+      const double value = host::displayValue(x, 0.0, map);
+      EXPECT_GE(value, last);
+      last = value;
+    }
+    EXPECT_EQ(host::displayValue(-1.0, 0.0, map), 0.0);
+    EXPECT_EQ(host::displayValue(NAN, 0.0, map), 0.0);
+    EXPECT_EQ(host::displayValue(INFINITY, 0.0, map), 1.0);
+    EXPECT_EQ(host::displayValue(0.0, 0.0, map), 0.0);
+    EXPECT_GT(last, 0.99);
+  }
+}
+
+TEST(HostPng, ShiftsByWholeStops) {
+  EXPECT_EQ(host::displayValue(0.25, 1.0, host::ToneMap::Linear),
+            host::displayValue(0.5, 0.0, host::ToneMap::Linear));
+  // sRGB encodes 0.5 as 0.735357 (IEC 61966-2-1), six digits.
+  EXPECT_NEAR(host::displayValue(0.5, 0.0, host::ToneMap::Linear), 0.735357, 0.5e-6);
+}
+
+}  // namespace

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// Scene files: what they mean and how their mistakes are named.
+#include "common/scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "expect_input_error.hpp"
+#include "temp_folder.hpp"
+
+namespace {
+
+using host_test::expectInputError;
+
+host::Scene parse(const std::string& text, const std::vector<std::string>& assignments = {}) {
+  const host_test::TempFolder folder;
+  const std::string file = folder.write("s.json", text);
+  return host::parseScene(host::readSceneJson(file, assignments), file);
+}
+
+void expectSceneError(const std::string& part, const std::string& text,
+                      const std::vector<std::string>& assignments = {}) {
+  expectInputError(part, [&] { parse(text, assignments); });
+}
+
+// Eight digits of a float direction.
+constexpr double FLOAT_UNIT = 2.0 * 0x1p-24;
+
+TEST(HostScene, StartsWithNothingButDefaults) {
+  const host::Scene scene = parse("{}");
+  EXPECT_FALSE(scene.sky.has_value());
+  EXPECT_FALSE(scene.fog.has_value());
+  EXPECT_TRUE(scene.lights.empty());
+  EXPECT_EQ(scene.planet.up[1], 1.0f);
+  EXPECT_EQ(scene.view.width, 1280u);
+  EXPECT_EQ(scene.view.targetFormat, uint32_t{WLK_TARGET_RGBA32_FLOAT});
+  EXPECT_EQ(scene.quality.level, uint32_t{WLK_QUALITY_HIGH});
+}
+
+TEST(HostScene, ReadsEverySection) {
+  const host::Scene scene = parse(R"({
+    // comments are allowed
+    "planet": {"radius": 1e6, "groundAlbedo": 0.3},
+    "sky": {}, "fog": {"dropletDiameter_um": 5, "extinction": 0.01, "scaleHeight": 50},
+    "lights": [{"elevation_deg": 30, "azimuth_deg": 90, "irradiance": [1, 2, 3]}],
+    "media": {"drop": {"phase": "hg", "asymmetry": 0.5}},
+    "volumes": [{"source": {"type": "cumulus", "size": [8, 8, 8]},
+                 "fields": [{"medium": "drop", "extinctionScale": 0.05}],
+                 "transform": {"min": [0, 1, 2], "size": [3, 4, 5]}}],
+    "quality": {"level": "low", "slicing": "light-aligned", "scattering": "single",
+                "noSkip": true},
+    "view": {"size": [64, 32], "composite": "separate", "layers": ["sky", "fog"]},
+    "camera": {"position": [1, 2, 3], "yaw_deg": 90, "verticalFov_deg": 50},
+    "opaque": {"geometry": [{"type": "terrain"}, {"type": "sphere", "centre": [0, 0, 0]}]},
+    "png": {"exposure_stops": 2, "toneMap": "linear"}})");
+  EXPECT_EQ(scene.planet.radius, 1e6f);
+  EXPECT_EQ(scene.planet.groundAlbedo[2], 0.3f);
+  ASSERT_EQ(scene.lights.size(), 1u);
+  // 30 degrees up in the east, which is +x.
+  EXPECT_NEAR(scene.lights[0].direction[0], std::sqrt(0.75), FLOAT_UNIT);
+  EXPECT_NEAR(scene.lights[0].direction[1], 0.5, FLOAT_UNIT);
+  EXPECT_NEAR(scene.lights[0].direction[2], 0.0, FLOAT_UNIT);
+  EXPECT_EQ(scene.lights[0].irradiance[2], 3.0f);
+  EXPECT_EQ(scene.fog->dropletDiameter_um, 5.0f);
+  EXPECT_EQ(scene.media[0].info.phase, uint32_t{WLK_PHASE_HENYEY_GREENSTEIN});
+  EXPECT_EQ(scene.volumes[0].fields[0].extinctionScale, 0.05);
+  EXPECT_TRUE(scene.volumes[0].placement.box);
+  EXPECT_EQ(scene.quality.slicing, uint32_t{WLK_SLICING_LIGHT_ALIGNED});
+  EXPECT_EQ(scene.quality.scattering, uint32_t{WLK_SCATTERING_SINGLE});
+  EXPECT_EQ(scene.quality.flags, uint64_t{WLK_QUALITY_NO_SKIP});
+  EXPECT_EQ(scene.view.layers, uint64_t{WLK_LAYER_SKY | WLK_LAYER_FOG});
+  EXPECT_EQ(scene.view.composite, uint32_t{WLK_COMPOSITE_SEPARATE});
+  EXPECT_DOUBLE_EQ(scene.camera.forward.x, 1.0);
+  EXPECT_TRUE(scene.geometry->terrain.has_value());
+  EXPECT_EQ(scene.geometry->spheres.size(), 1u);
+  EXPECT_EQ(scene.png.toneMap, host::ToneMap::Linear);
+}
+
+TEST(HostScene, NamesTheKeyAndTheExpectedValue) {
+  expectSceneError("s.json: fgo: unknown key; expected one of", R"({"fgo": {}})");
+  expectSceneError("fog.extinktion: unknown key", R"({"fog": {"extinktion": 1}})");
+  expectSceneError("fog.extinction: expected a number, got \"x\"",
+                   R"({"fog": {"extinction": "x"}})");
+  expectSceneError("fog: expected an object, got 3", R"({"fog": 3})");
+  expectSceneError("lights: expected an array", R"({"lights": {}})");
+  expectSceneError("lights.1.irradiance: expected a number or [r, g, b]",
+                   R"({"lights": [{}, {"irradiance": [1, 2]}]})");
+  expectSceneError("lights.0.elevation_deg: expected a number in [-90, 90]",
+                   R"({"lights": [{"elevation_deg": 91}]})");
+  expectSceneError("lights.0.direction: expected a vector that is not 0",
+                   R"({"lights": [{"direction": [0, 0, 0]}]})");
+  expectSceneError("view.size.0: expected a whole number in [1, 16384], got 0",
+                   R"({"view": {"size": [0, 5]}})");
+  expectSceneError("view.size: expected [width, height]", R"({"view": {"size": [4]}})");
+  expectSceneError("quality.level: expected one of low, medium, high, ultra, got \"best\"",
+                   R"({"quality": {"level": "best"}})");
+  expectSceneError("camera.target: expected a point away",
+                   R"({"camera": {"position": [1, 1, 1], "target": [1, 1, 1]}})");
+  expectSceneError("camera.verticalFov_deg: expected a number in [0.1, 170]",
+                   R"({"camera": {"verticalFov_deg": 180}})");
+}
+
+TEST(HostScene, NamesMistakesInVolumes) {
+  const std::string field = R"("fields": [{"medium": "m"}])";
+  const auto volume = [](const std::string& text) {
+    return R"({"media": {"m": {}}, "volumes": [{)" + text + "}]}";
+  };
+  expectSceneError("volumes.0.fields: expected a value, got none", volume(""));
+  expectSceneError("volumes.0.fields.0: expected a source", volume(field));
+  expectSceneError("volumes.0.fields.0.medium: expected the name of one of media",
+                   volume(R"("fields": [{"medium": "fog"}])"));
+  expectSceneError("volumes.0.source.type: expected one of raw, les, vdb, cumulus, got \"obj\"",
+                   volume(R"("source": {"type": "obj"}, )" + field));
+  expectSceneError("volumes.0.source.file: expected a value, got none",
+                   volume(R"("source": {"type": "vdb"}, )" + field));
+  expectSceneError("volumes.0.source.size.1: expected a whole number",
+                   volume(R"("source": {"type": "cumulus", "size": [4, 0, 4]}, )" + field));
+  expectSceneError("volumes.0.transform: expected min and size, or",
+                   volume(R"("source": {"type": "cumulus"}, "transform": {"min": [0, 0, 0],
+                             "size": [1, 1, 1], "scale": 2}, )" +
+                          field));
+  expectSceneError("volumes.0.transform.size: expected three positive",
+                   volume(R"("source": {"type": "cumulus"}, "transform": {"min": [0, 0, 0],
+                             "size": [1, -1, 1]}, )" +
+                          field));
+}
+
+TEST(HostScene, RefusesTextThatIsNoJson) {
+  expectSceneError("expected JSON: parse error at line 1", "{");
+  expectSceneError("expected JSON: parse error", R"({"fog": {"extinction": NaN}})");
+  expectSceneError("expected JSON", R"({"fog": {"extinction": 1e999}})");
+  expectSceneError("expected JSON", "");
+  expectSceneError("expected a JSON object", "[1]");
+  expectSceneError("64 levels", std::string(100000, '['));
+  expectSceneError("fog.extinction: expected a number", R"({"fog": {"extinction": 1e300}})");
+  expectInputError("no such file", [] { host::readSceneJson("/nowhere/s.json", {}); });
+}
+
+TEST(HostScene, TakesAssignments) {
+  const std::string text = R"({"lights": [{"irradiance": 1}], "fog": {"extinction": 1}})";
+  const host::Scene scene = parse(
+      text, {"lights.0.irradiance=[4,5,6]", "camera.near=2", "fog=null", "quality.level=ultra"});
+  EXPECT_EQ(scene.lights[0].irradiance[1], 5.0f);
+  EXPECT_EQ(scene.camera.nearPlane, 2.0);
+  EXPECT_FALSE(scene.fog.has_value());
+  EXPECT_EQ(scene.quality.level, uint32_t{WLK_QUALITY_ULTRA});
+  expectSceneError("lights.1.irradiance: expected an index below 1", text,
+                   {"lights.1.irradiance=3"});
+  expectSceneError("fog.extinktion: unknown key", text, {"fog.extinktion=3"});
+  expectSceneError("expected key.path=value", text, {"fog"});
+  expectSceneError("inside a value", text, {"fog.extinction.x=3"});
+  expectSceneError("single dots", text, {"fog..extinction=3"});
+  expectSceneError("got \"nan\"", text, {"fog.extinction=nan"});
+}
+
+TEST(HostScene, MergesOverItsBase) {
+  const host_test::TempFolder folder;
+  static_cast<void>(folder.write("base.json", R"({"fog": {"extinction": 1, "scaleHeight": 7}})"));
+  const std::string file =
+      folder.write("s.json", R"({"base": "base.json", "fog": {"extinction": 2}})");
+  const host::Scene scene = host::parseScene(host::readSceneJson(file, {}), file);
+  EXPECT_EQ(scene.fog->extinction, 2.0f);
+  EXPECT_EQ(scene.fog->scaleHeight, 7.0f);
+  const std::string loop = folder.write("loop.json", R"({"base": "loop.json"})");
+  expectInputError("at most 8", [&] { host::readSceneJson(loop, {}); });
+}
+
+}  // namespace
