@@ -443,7 +443,7 @@ enum {
   WLK_COMPOSITE_SEPARATE = 2
 };
 
-/** Layers of a view. */
+/** Layers of a view. SUN_DISK and GROUND belong to the sky: they need WLK_LAYER_SKY and wlkSetSky. */
 enum {
   WLK_LAYER_SKY = 1u << 0,
   WLK_LAYER_FOG = 1u << 1,
@@ -618,7 +618,6 @@ WLK_API WlkResult wlkReadback(WlkContext context, WlkView view, const WlkImageDa
 /* --------------------------------------------------------------------------------- statistics */
 
 enum {
-  WLK_PASS_UPLOAD = 0,
   WLK_PASS_LIGHT_SLICES = 1,
   WLK_PASS_EYE_SLICES = 2,
   WLK_PASS_COMPOSITE = 3
@@ -632,8 +631,7 @@ enum {
   WLK_REASON_ZERO_DENSITY = 3,
   WLK_REASON_OUTSIDE_VIEW = 4,
   WLK_REASON_NO_LIGHT = 5,
-  WLK_REASON_UNCHANGED = 6,
-  WLK_REASON_NO_SKIP_FLAG = 7
+  WLK_REASON_NO_SKIP_FLAG = 6
 };
 
 /** One line of the plan: a pass over one volume (or over the picture), all its batches together. */

@@ -73,7 +73,7 @@ struct WlkContext_T {
   welkin::vk::Image dummy3d;
 
   uint16_t tag() const;
-  bool hasDevice() const { return device.has_value(); }
+  bool fogActive() const { return air.fog && air.fog->extinction > 0; }
   welkin::vk::Device& requireDevice(const char* what);
   welkin::MediumState& medium(WlkMedium handle);
   welkin::VolumeState& volume(WlkVolume handle);

@@ -87,8 +87,8 @@ void evaluateRay(const AirQuery& q, const WlkPlanet& planet, const WlkRay& ray, 
   const double phase = q.air.fogExtinction > 0 ? evalPhase(q.fogPhase, y) : 0.0;
   double scattered[3];
   double depth[3];
-  evalAirRay(q.air, frame.altitude, viewMu, glm::dot(q.toLight, frame.up), 1.0 - y, distance,
-             phase, q.angularRadius, scattered, depth);
+  evalAirRay(q.air, frame.altitude, viewMu, glm::dot(q.toLight, frame.up), 1.0 - y, distance, phase,
+             q.angularRadius, scattered, depth);
   for (int i = 0; i < 3; ++i) {
     if (radiance != nullptr) {
       radiance[i] = q.light ? scattered[i] * q.irradiance[i] : 0.0;

@@ -126,7 +126,15 @@ void renderHeadless(WlkContext_T& c, ViewState& view, const WlkHeadlessTargets& 
   if (view.info.composite == WLK_COMPOSITE_SEPARATE) {
     images.target1 = ownTarget(r.target1, NOTHING, TRANSFER_SOURCE);
   }
-  recordFrame(c, commands, view, images);
+  try {
+    recordFrame(c, commands, view, images);
+  } catch (...) {
+    // The uploads are recorded and no longer pending: run them, so that nothing is lost.
+    c.headless->submitAndWait();
+    c.completedFrame = c.frameIndex;
+    c.collect();
+    throw;
+  }
   readTarget(vk, commands, view, r.target0, 0);
   if (images.target1) {
     readTarget(vk, commands, view, r.target1, pixels * 16);
@@ -181,12 +189,11 @@ void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
   PlanInput input;
   input.layers = view.info.layers;
   input.sky = c.air.sky.has_value();
-  input.fog = c.air.fog.has_value() && c.air.fog->extinction > 0;
+  input.fog = c.fogActive();
   input.planet = c.air.planet;
   if (c.air.light) {
     const WlkLight& light = *c.air.light;
-    input.light =
-        light.irradiance[0] > 0 || light.irradiance[1] > 0 || light.irradiance[2] > 0;
+    input.light = light.irradiance[0] > 0 || light.irradiance[1] > 0 || light.irradiance[2] > 0;
     input.toLight =
         glm::normalize(glm::dvec3(light.direction[0], light.direction[1], light.direction[2]));
     input.lightAngularRadius = 0.5 * light.angularDiameter;
@@ -217,8 +224,8 @@ void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
     record.state = volume;
     for (uint32_t f = 0; f < volume->fieldCount; ++f) {
       if (volume->fields[f].external) {
-        record.externalViews[f] = importView(c, *volume->fields[f].external,
-                                             VK_IMAGE_VIEW_TYPE_3D, VK_IMAGE_ASPECT_COLOR_BIT);
+        record.externalViews[f] = importView(c, *volume->fields[f].external, VK_IMAGE_VIEW_TYPE_3D,
+                                             VK_IMAGE_ASPECT_COLOR_BIT);
       }
     }
     c.recordVolumes.push_back(record);
@@ -258,7 +265,7 @@ WlkResult wlkPrepare(WlkContext context) {
     }
     SceneFeatures features;
     features.sky = c.air.sky.has_value();
-    features.fog = c.air.fog.has_value();
+    features.fog = c.fogActive();
     c.recordVolumes.reserve(c.volumes.count());
     for (uint32_t i = 0; i < c.views.slotCount(); ++i) {
       ViewState* view = c.views.at(i);
@@ -274,7 +281,8 @@ WlkResult wlkPrepare(WlkContext context) {
                   {counts.data(), kinds}, &c.memory);
       view->plan.volumes.reserve(c.volumes.count());
       view->planVolumes.reserve(c.volumes.count());
-      view->record.passes.reserve(2 + 2 * size_t{c.volumes.count()});
+      view->record.passes.reserve(1 + 2 * size_t{c.volumes.count()});
+      view->record.times.reserve(1 + 2 * size_t{c.volumes.count()});
       c.retireView(*view);
       std::swap(view->resources, carrier.resources);
       view->prepared = true;
@@ -365,13 +373,12 @@ WlkResult wlkReadback(WlkContext context, WlkView view, const WlkImageData* imag
     if (value.dataSize < bytes) {
       fail(WLK_ERROR_INVALID_ARGUMENT, value.sType, "dataSize",
            "WlkImageData::dataSize is %llu, the image has %llu bytes",
-           static_cast<unsigned long long>(value.dataSize),
-           static_cast<unsigned long long>(bytes));
+           static_cast<unsigned long long>(value.dataSize), static_cast<unsigned long long>(bytes));
     }
     const bool separate = state.info.composite == WLK_COMPOSITE_SEPARATE;
-    const bool fits = separate ? value.image == WLK_IMAGE_RADIANCE ||
-                                     value.image == WLK_IMAGE_TRANSMITTANCE
-                               : value.image == WLK_IMAGE_COLOR;
+    const bool fits =
+        separate ? value.image == WLK_IMAGE_RADIANCE || value.image == WLK_IMAGE_TRANSMITTANCE
+                 : value.image == WLK_IMAGE_COLOR;
     if (!fits) {
       fail(WLK_ERROR_INVALID_ARGUMENT, value.sType, "image",
            "WlkImageData::image is %u, which the view's composite mode does not write",
@@ -381,8 +388,8 @@ WlkResult wlkReadback(WlkContext context, WlkView view, const WlkImageData* imag
       return WLK_NOT_READY;
     }
     const uint64_t offset = value.image == WLK_IMAGE_TRANSMITTANCE ? bytes : 0;
-    std::memcpy(value.data,
-                static_cast<const char*>(state.resources.readback.data()) + offset, bytes);
+    std::memcpy(value.data, static_cast<const char*>(state.resources.readback.data()) + offset,
+                bytes);
     return WLK_SUCCESS;
   });
 }

@@ -73,8 +73,8 @@ void checkVolumeMemory(vk::Device& device, const WlkVolumeInfo& info) {
   const auto heap = static_cast<double>(device.memory().largestHeap());
   if (bytes > heap) {
     fail(WLK_ERROR_OUT_OF_DEVICE_MEMORY, info.sType, "size",
-         "a volume of %u x %u x %u voxels needs %.0f MiB, the device's heap has %.0f",
-         info.size[0], info.size[1], info.size[2], bytes / 1048576.0, heap / 1048576.0);
+         "a volume of %u x %u x %u voxels needs %.0f MiB, the device's heap has %.0f", info.size[0],
+         info.size[1], info.size[2], bytes / 1048576.0, heap / 1048576.0);
   }
 }
 
@@ -116,7 +116,7 @@ WlkResult wlkSetFog(WlkContext context, const WlkFog* fog) {
     if (fog != nullptr) {
       value = checkedFog(fog);
     }
-    if (value.has_value() != c.air.fog.has_value()) {
+    if ((value && value->extinction > 0) != c.fogActive()) {
       c.invalidate();
     }
     c.air.fog = value;
@@ -129,8 +129,8 @@ WlkResult wlkSetLights(WlkContext context, uint32_t count, uint32_t stride,
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
     if (count > 1) {
-      fail(WLK_ERROR_LIMIT_EXCEEDED, WLK_STRUCT_LIGHT, "count",
-           "%u lights, this version takes 1", count);
+      fail(WLK_ERROR_LIMIT_EXCEEDED, WLK_STRUCT_LIGHT, "count", "%u lights, this version takes 1",
+           count);
     }
     std::optional<WlkLight> value;
     if (count == 1) {
@@ -189,8 +189,7 @@ WlkResult wlkCreateVolume(WlkContext context, const WlkVolumeInfo* info, WlkVolu
     checkPointer(v.fields, "fields");
     std::array<WlkVolumeField, WLK_MAX_FIELDS> fields{};
     for (uint32_t i = 0; i < v.fieldCount; ++i) {
-      std::memcpy(&fields[i],
-                  reinterpret_cast<const char*>(v.fields) + size_t{i} * v.fieldStride,
+      std::memcpy(&fields[i], reinterpret_cast<const char*>(v.fields) + size_t{i} * v.fieldStride,
                   sizeof fields[i]);
       c.medium(fields[i].medium);
       checkRange(v.sType, "extinctionScale", fields[i].extinctionScale, 0, 1e6);
@@ -258,8 +257,8 @@ WlkResult wlkUploadVolume(WlkContext context, WlkVolume volume, const WlkVolumeU
     pending.volumeId = volume.id;
     pending.field = u.field;
     vk::Image image;
-    VkFormat format = u.format == WLK_FORMAT_R32_FLOAT ? VK_FORMAT_R32_SFLOAT
-                                                       : VK_FORMAT_R16_SFLOAT;
+    VkFormat format =
+        u.format == WLK_FORMAT_R32_FLOAT ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R16_SFLOAT;
     if (field.image) {
       format = field.image.info().format;
     } else {
@@ -271,11 +270,9 @@ WlkResult wlkUploadVolume(WlkContext context, WlkVolume volume, const WlkVolumeU
       image = vk::Image(device, info);
     }
     const uint64_t texel = format == VK_FORMAT_R32_SFLOAT ? 4 : 2;
-    pending.staging = vk::Buffer(
-        device, texel * u.extent[0] * u.extent[1] * u.extent[2], VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-        true);
-    const float largest = convertVoxels(u, format == VK_FORMAT_R32_SFLOAT,
-                                        pending.staging.data());
+    pending.staging = vk::Buffer(device, texel * u.extent[0] * u.extent[1] * u.extent[2],
+                                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true);
+    const float largest = convertVoxels(u, format == VK_FORMAT_R32_SFLOAT, pending.staging.data());
     pending.region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     pending.region.imageOffset = {static_cast<int32_t>(u.offset[0]),
                                   static_cast<int32_t>(u.offset[1]),

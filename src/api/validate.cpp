@@ -125,8 +125,7 @@ void checkRange(uint32_t sType, const char* field, double value, double lo, doub
   }
 }
 
-void checkRange3(uint32_t sType, const char* field, const float (&value)[3], double lo,
-                 double hi) {
+void checkRange3(uint32_t sType, const char* field, const float (&value)[3], double lo, double hi) {
   for (const float x : value) {
     checkRange(sType, field, static_cast<double>(x), lo, hi);
   }

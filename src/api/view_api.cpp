@@ -225,8 +225,14 @@ WlkResult wlkGetFrameStats(WlkContext context, WlkView view, WlkFrameStats* stat
     const uint32_t room = passes == nullptr ? available : *passCount;
     *passCount = available;
     if (passes != nullptr) {
-      std::memcpy(passes, state.record.passes.data(),
-                  sizeof(WlkPassStats) * std::min(room, available));
+      for (uint32_t i = 0; i < std::min(room, available); ++i) {
+        passes[i] = state.record.passes[i];
+        for (const PassTime& time : state.record.times) {
+          if (time.pass == passes[i].pass && time.volumeId == passes[i].volume.id) {
+            passes[i].gpuTime_ns = time.nanoseconds;
+          }
+        }
+      }
     }
     return room < available ? WLK_INCOMPLETE : WLK_SUCCESS;
   });

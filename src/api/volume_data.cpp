@@ -137,8 +137,7 @@ float convertVoxels(const WlkVolumeUpload& u, bool toFloat, void* out) {
   auto* to = static_cast<unsigned char*>(out);
   for (uint32_t z = 0; z < u.extent[2]; ++z) {
     for (uint32_t y = 0; y < u.extent[1]; ++y) {
-      const auto* from =
-          static_cast<const unsigned char*>(u.data) + z * slicePitch + y * rowPitch;
+      const auto* from = static_cast<const unsigned char*>(u.data) + z * slicePitch + y * rowPitch;
       for (uint32_t x = 0; x < u.extent[0]; ++x, from += voxel) {
         const float value = readVoxel(from, u.format);
         largest = value > largest ? value : largest;

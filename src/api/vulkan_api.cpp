@@ -32,8 +32,8 @@ WlkVulkanImage checkedImage(const WlkVulkanImage* image, const char* role, uint3
     fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, role, "WlkVulkanImage::image of %s is null", role);
   }
   if (i.width != width || i.height != height) {
-    fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, role, "%s has %u x %u pixels, the view %u x %u",
-         role, i.width, i.height, width, height);
+    fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, role, "%s has %u x %u pixels, the view %u x %u", role,
+         i.width, i.height, width, height);
   }
   if (i.after.layout == VK_IMAGE_LAYOUT_UNDEFINED ||
       i.after.layout == VK_IMAGE_LAYOUT_PREINITIALIZED) {
@@ -63,8 +63,7 @@ TargetImage colorTarget(WlkContext_T& c, const WlkVulkanImage* image, const char
   if (formatMatters && value.format != targetFormat(view.info.targetFormat)) {
     fail(WLK_ERROR_UNSUPPORTED_FORMAT, WLK_STRUCT_VULKAN_IMAGE, role,
          "%s has VkFormat %d, WlkViewInfo::targetFormat asks for %d", role,
-         static_cast<int>(value.format),
-         static_cast<int>(targetFormat(view.info.targetFormat)));
+         static_cast<int>(value.format), static_cast<int>(targetFormat(view.info.targetFormat)));
   }
   return importTarget(c, value, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
 }
@@ -72,15 +71,15 @@ TargetImage colorTarget(WlkContext_T& c, const WlkVulkanImage* image, const char
 ViewTargets importTargets(WlkContext_T& c, const ViewState& view, const WlkVulkanViewTargets& t) {
   ViewTargets targets;
   if (t.depth != nullptr) {
-    const WlkVulkanImage depth =
-        checkedImage(t.depth, "depth", view.info.width, view.info.height);
+    const WlkVulkanImage depth = checkedImage(t.depth, "depth", view.info.width, view.info.height);
     const VkImageAspectFlags aspects = depthAspects(depth.format);
     if (aspects == 0) {
       fail(WLK_ERROR_UNSUPPORTED_FORMAT, WLK_STRUCT_VULKAN_IMAGE, "depth",
            "depth has VkFormat %d, which is no depth format Welkin reads",
            static_cast<int>(depth.format));
     }
-    targets.depth = importTarget(c, depth, aspects & ~VkImageAspectFlags{VK_IMAGE_ASPECT_STENCIL_BIT}, aspects);
+    targets.depth =
+        importTarget(c, depth, aspects & ~VkImageAspectFlags{VK_IMAGE_ASPECT_STENCIL_BIT}, aspects);
   }
   if (view.info.composite == WLK_COMPOSITE_SEPARATE) {
     targets.target0 = colorTarget(c, t.radiance, "radiance", view, true);
@@ -159,8 +158,7 @@ WlkResult wlkVulkanSetVolumeImage(WlkContext context, WlkVolume volume, uint32_t
     const WlkVulkanImage i = checkedImage(image, "volume image", state.size[0], state.size[1]);
     if (i.depth != state.size[2]) {
       fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, "depth",
-           "WlkVulkanImage::depth is %u, the volume has %u voxels along z", i.depth,
-           state.size[2]);
+           "WlkVulkanImage::depth is %u, the volume has %u voxels along z", i.depth, state.size[2]);
     }
     if (i.format != VK_FORMAT_R16_SFLOAT && i.format != VK_FORMAT_R32_SFLOAT &&
         i.format != VK_FORMAT_R16_UNORM && i.format != VK_FORMAT_R8_UNORM) {

@@ -101,8 +101,8 @@ PlannedVolume planVolume(const PlanInput& in, const PlanVolume& volume) {
   glm::dmat4x3 box = volume.worldFromBox;
   box[3] -= in.eye;
   const std::array<glm::dvec3, 8> corners = cornersOf(box);
-  result.rect = contains(box, glm::dvec3(0)) ? PixelRect{0, 0, in.width, in.height}
-                                             : coverOf(corners, in);
+  result.rect =
+      contains(box, glm::dvec3(0)) ? PixelRect{0, 0, in.width, in.height} : coverOf(corners, in);
   result.distance = distanceTo(box);
   uint32_t reason = WLK_REASON_NEEDED;
   if ((in.layers & WLK_LAYER_VOLUMES) == 0) {
@@ -167,8 +167,8 @@ SliceQuality resolveQuality(const WlkQuality& quality) {
 
 PlanetFrame planetFrameAt(const WlkPlanet& planet, const glm::dvec3& point) {
   const glm::dvec3 up = glm::normalize(glm::dvec3(planet.up[0], planet.up[1], planet.up[2]));
-  const glm::dvec3 p = point - glm::dvec3(planet.seaLevelPoint[0], planet.seaLevelPoint[1],
-                                          planet.seaLevelPoint[2]);
+  const glm::dvec3 p =
+      point - glm::dvec3(planet.seaLevelPoint[0], planet.seaLevelPoint[1], planet.seaLevelPoint[2]);
   const double radius = planet.radius;
   const double vertical = glm::dot(p, up);
   // |p + R up| - R without cancellation: q / (sqrt(R^2 + q) + R), q = |p|^2 + 2 R p.up.
@@ -203,8 +203,8 @@ SliceLayout layoutSlices(const glm::dmat4x3& box, const glm::dvec3& toLight, con
   glm::dvec3 reach(0);  // half extents of the box along axis, u, v
   for (int i = 0; i < 3; ++i) {
     const glm::dvec3 edge = box[i];
-    reach += 0.5 * glm::abs(glm::dvec3(glm::dot(edge, s.axis), glm::dot(edge, u),
-                                       glm::dot(edge, v)));
+    reach +=
+        0.5 * glm::abs(glm::dvec3(glm::dot(edge, s.axis), glm::dot(edge, u), glm::dot(edge, v)));
   }
   const double count = quality.sliceCount;
   s.slabThickness = 2.0 * reach.x / count;
@@ -253,19 +253,19 @@ void makePlan(const PlanInput& in, Plan& plan) {
   plan.air = in.sky && (in.layers & WLK_LAYER_SKY) != 0;
   plan.fog = in.fog && (in.layers & WLK_LAYER_FOG) != 0;
   const PlanetFrame eye = planetFrameAt(in.planet, in.eye);
-  plan.light = in.light && (in.quality.noSkip ||
-                            aboveHorizon(glm::dot(eye.up, in.toLight),
-                                         std::max(eye.altitude, AIR_TOP), in.planet.radius,
-                                         in.lightAngularRadius));
-  plan.disk = plan.air && in.light && (in.layers & WLK_LAYER_SUN_DISK) != 0 &&
-              in.lightAngularRadius > 0;
+  plan.light =
+      in.light && (in.quality.noSkip ||
+                   aboveHorizon(glm::dot(eye.up, in.toLight), std::max(eye.altitude, AIR_TOP),
+                                in.planet.radius, in.lightAngularRadius));
+  plan.disk =
+      plan.air && in.light && (in.layers & WLK_LAYER_SUN_DISK) != 0 && in.lightAngularRadius > 0;
   plan.ground = plan.air && (in.layers & WLK_LAYER_GROUND) != 0;
   const bool something = plan.air || plan.fog || plan.drawnCount > 0;
   plan.composite = something || in.mustWrite || in.quality.noSkip;
-  plan.compositeReason = something || in.mustWrite
-                             ? WLK_REASON_NEEDED
-                             : (in.quality.noSkip ? WLK_REASON_NO_SKIP_FLAG
-                                                  : WLK_REASON_NOTHING_TO_DRAW);
+  plan.compositeReason =
+      something || in.mustWrite
+          ? WLK_REASON_NEEDED
+          : (in.quality.noSkip ? WLK_REASON_NO_SKIP_FLAG : WLK_REASON_NOTHING_TO_DRAW);
 }
 
 }  // namespace welkin

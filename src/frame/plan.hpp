@@ -32,16 +32,16 @@ PlanetFrame planetFrameAt(const WlkPlanet& planet, const glm::dvec3& point);
 
 // Slabs through a volume and the light buffer beside them, all relative to the eye, in m.
 struct SliceLayout {
-  glm::dvec3 axis;          // slabs lie across it; it runs with the light
+  glm::dvec3 axis;  // slabs lie across it; it runs with the light
   double slabThickness;
-  glm::dvec4 plane;         // plane coordinate = dot(p, xyz) + w
-  glm::dvec4 lightU;        // light-buffer coordinates likewise
+  glm::dvec4 plane;   // plane coordinate = dot(p, xyz) + w
+  glm::dvec4 lightU;  // light-buffer coordinates likewise
   glm::dvec4 lightV;
-  glm::dvec3 texelOrigin;   // point on the light ray (u, v) at plane coordinate c:
-  glm::dvec3 texelU;        //   origin + u U + v V + c C
+  glm::dvec3 texelOrigin;  // point on the light ray (u, v) at plane coordinate c:
+  glm::dvec3 texelU;       //   origin + u U + v V + c C
   glm::dvec3 texelV;
   glm::dvec3 texelC;
-  double lightPath;         // length of a light ray inside a slab
+  double lightPath;  // length of a light ray inside a slab
 };
 // `box` maps the unit box to positions relative to the eye, `view` is the direction from the eye
 // to the box (half-angle only).
@@ -55,7 +55,7 @@ struct PixelRect {
 
 struct PlanVolume {
   uint64_t id = 0;
-  uint32_t index = 0;        // place in the context's list
+  uint32_t index = 0;  // place in the context's list
   glm::dmat4x3 worldFromBox{1.0};
   bool anyDensity = true;
 };
@@ -64,8 +64,8 @@ struct PlanInput {
   uint64_t layers = 0;
   bool sky = false;
   bool fog = false;
-  bool light = false;          // a light with irradiance is set
-  bool mustWrite = false;      // the targets need a value even if nothing is drawn
+  bool light = false;      // a light with irradiance is set
+  bool mustWrite = false;  // the targets need a value even if nothing is drawn
   WlkPlanet planet{};
   glm::dvec3 toLight{0, 1, 0};
   double lightAngularRadius = 0;
@@ -93,10 +93,10 @@ struct Plan {
   explicit Plan(std::pmr::memory_resource* memory) : volumes(memory) {}
   std::pmr::vector<PlannedVolume> volumes;  // drawn ones first, nearest first
   uint32_t drawnCount = 0;
-  PixelRect volumeRect;                     // union of the drawn ones
+  PixelRect volumeRect;  // union of the drawn ones
   bool air = false;
   bool fog = false;
-  bool light = false;                       // the light reaches air, fog or ground
+  bool light = false;  // the light reaches air, fog or ground
   bool disk = false;
   bool ground = false;
   bool composite = false;

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "failure.hpp"
+#include "frame/bindings.hpp"
 #include "frame/resources.hpp"
 
 namespace welkin {
@@ -19,11 +20,6 @@ constexpr VkAccessFlags2 SHADER_ACCESS = VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
                                          VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
                                          VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
 constexpr WlkVulkanImageState GENERAL_STATE{VK_IMAGE_LAYOUT_GENERAL, 0, COMPUTE, SHADER_ACCESS};
-
-template <typename Handle>
-uint64_t bits(Handle handle) {
-  return reinterpret_cast<uint64_t>(handle);
-}
 
 uint32_t groups(uint32_t pixels) {
   return (pixels + 7) / 8;
@@ -41,7 +37,8 @@ class Recorder {
         in_(input),
         targets_(targets),
         slot_(view.resources.slots[input.slot]),
-        quality_(resolveQuality(view.quality)) {}
+        quality_(resolveQuality(view.quality)),
+        bindings_(device) {}
 
   void run() {
     findPipelines();
@@ -52,6 +49,11 @@ class Recorder {
     }
     recordComposite();
     releaseTargets();
+    slot_.passes.clear();
+    for (const WlkPassStats& pass : view_.record.passes) {
+      slot_.passes.push_back({pass.pass, pass.volume.id, 0});
+    }
+    view_.record.stats.descriptorWrites = bindings_.writes();
     slot_.frameIndex = in_.frameIndex;
     slot_.harvested = !anything_;
     view_.lastFrame = in_.frameIndex;
@@ -118,16 +120,15 @@ class Recorder {
     if (!anything_) {
       return;
     }
-    auto* memory = static_cast<char*>(view_.resources.uniforms.data()) +
-                   in_.slot * view_.resources.slotStride;
+    auto* memory =
+        static_cast<char*>(view_.resources.uniforms.data()) + in_.slot * view_.resources.slotStride;
     FrameUniforms frame;
     fillFrame(*in_.air, view_, frame);
     std::memcpy(memory, &frame, sizeof frame);
     vk_.CmdResetQueryPool(commands_, slot_.queries, 0, view_.resources.queryCount);
     vk_.CmdFillBuffer(commands_, view_.resources.counters.handle(), counterOffset(), 16, 0);
     // Also orders this frame's first pass after the last frame's readers of the same buffers.
-    barrier(VK_PIPELINE_STAGE_2_TRANSFER_BIT | COMPUTE |
-                VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+    barrier(VK_PIPELINE_STAGE_2_TRANSFER_BIT | COMPUTE | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
             VK_ACCESS_2_TRANSFER_WRITE_BIT | SHADER_ACCESS,
             COMPUTE | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, SHADER_ACCESS);
     vk::Image& light = view_.resources.lightBuffer;
@@ -144,9 +145,9 @@ class Recorder {
     if (!anything_) {
       return;
     }
-    const WlkVulkanImageState sampled{
-        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, 0,
-        COMPUTE | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+    const WlkVulkanImageState sampled{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, 0,
+                                      COMPUTE | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+                                      VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
     const WlkVulkanImageState attachment{
         VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, 0,
         VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
@@ -202,11 +203,10 @@ class Recorder {
         push.firstSlab = slab;
         push.slabCount = quality_.batchSize;  // a last batch past the end finds nothing to march
         push.lightSize = quality_.lightSize;
-        push.flags = (slab == 0 ? interface_::SLICE_FIRST_BATCH : 0) |
-                     (slab + quality_.batchSize >= quality_.sliceCount
-                          ? interface_::SLICE_LAST_BATCH
-                          : 0) |
-                     (first ? interface_::SLICE_FIRST_VOLUME : 0);
+        push.flags =
+            (slab == 0 ? interface_::SLICE_FIRST_BATCH : 0) |
+            (slab + quality_.batchSize >= quality_.sliceCount ? interface_::SLICE_LAST_BATCH : 0) |
+            (first ? interface_::SLICE_FIRST_VOLUME : 0);
         if (planned.lit) {
           orderShaders();
           dispatch(lightPipeline, pipelines_.volumeLayout(), &push, groups(quality_.lightSize),
@@ -234,14 +234,14 @@ class Recorder {
     fillVolume(*volume.state, planned, eye, quality_, uniforms);
     std::memcpy(static_cast<char*>(r.uniforms.data()) + offset, &uniforms, sizeof uniforms);
 
-    bindBuffer(set, vk::BIND_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(), base,
-               sizeof(FrameUniforms));
-    bindBuffer(set, vk::BIND_VOLUME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(),
-               offset, sizeof(VolumeUniforms));
-    bindImage(set, vk::BIND_LIGHT_STORAGE, r.lightBuffer.view(), VK_NULL_HANDLE,
-              VK_IMAGE_LAYOUT_GENERAL);
-    bindImage(set, vk::BIND_LIGHT_SAMPLED, r.lightBuffer.view(), pipelines_.linear(),
-              VK_IMAGE_LAYOUT_GENERAL);
+    bindings_.buffer(set, vk::BIND_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(),
+                     base, sizeof(FrameUniforms));
+    bindings_.buffer(set, vk::BIND_VOLUME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(),
+                     offset, sizeof(VolumeUniforms));
+    bindings_.image(set, vk::BIND_LIGHT_STORAGE, r.lightBuffer.view(), VK_NULL_HANDLE,
+                    VK_IMAGE_LAYOUT_GENERAL);
+    bindings_.image(set, vk::BIND_LIGHT_SAMPLED, r.lightBuffer.view(), pipelines_.linear(),
+                    VK_IMAGE_LAYOUT_GENERAL);
     for (uint32_t i = 0; i < WLK_MAX_FIELDS; ++i) {
       VkImageView view = in_.dummy3d;
       if (i < volume.state->fieldCount) {
@@ -252,20 +252,20 @@ class Recorder {
           view = field.image.view();
         }
       }
-      bindImage(set, vk::BIND_FIELD0 + i, view, pipelines_.linear(),
-                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+      bindings_.image(set, vk::BIND_FIELD0 + i, view, pipelines_.linear(),
+                      VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
-    bindImage(set, vk::BIND_TABLE, volume.state->table.view(), pipelines_.linear(),
-              VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    bindImage(set, vk::BIND_DEPTH, targets_.depth ? targets_.depth.view : in_.dummy2d,
-              pipelines_.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    bindings_.image(set, vk::BIND_TABLE, volume.state->table.view(), pipelines_.linear(),
+                    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    bindings_.image(set, vk::BIND_DEPTH, targets_.depth ? targets_.depth.view : in_.dummy2d,
+                    pipelines_.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     const vk::Buffer& volumeState = r.volumeState ? r.volumeState : r.frameState;
-    bindBuffer(set, vk::BIND_FRAME_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-               r.frameState.handle(), 0, r.frameState.size());
-    bindBuffer(set, vk::BIND_VOLUME_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-               volumeState.handle(), 0, volumeState.size());
-    vk_.CmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE,
-                              pipelines_.volumeLayout(), 0, 1, &set.set, 0, nullptr);
+    bindings_.buffer(set, vk::BIND_FRAME_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                     r.frameState.handle(), 0, r.frameState.size());
+    bindings_.buffer(set, vk::BIND_VOLUME_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                     volumeState.handle(), 0, volumeState.size());
+    vk_.CmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.volumeLayout(),
+                              0, 1, &set.set, 0, nullptr);
   }
 
   void recordComposite() {
@@ -295,36 +295,36 @@ class Recorder {
   void bindComposite() {
     const ViewResources& r = view_.resources;
     BoundSet& set = slot_.composite;
-    bindBuffer(set, vk::BIND_COMPOSITE_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-               r.uniforms.handle(), in_.slot * r.slotStride, sizeof(FrameUniforms));
-    bindBuffer(set, vk::BIND_COMPOSITE_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-               r.frameState.handle(), 0, r.frameState.size());
-    bindBuffer(set, vk::BIND_COMPOSITE_COUNTERS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-               r.counters.handle(), counterOffset(), 16);
-    bindImage(set, vk::BIND_COMPOSITE_DEPTH, targets_.depth ? targets_.depth.view : in_.dummy2d,
-              pipelines_.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    bindings_.buffer(set, vk::BIND_COMPOSITE_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                     r.uniforms.handle(), in_.slot * r.slotStride, sizeof(FrameUniforms));
+    bindings_.buffer(set, vk::BIND_COMPOSITE_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                     r.frameState.handle(), 0, r.frameState.size());
+    bindings_.buffer(set, vk::BIND_COMPOSITE_COUNTERS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                     r.counters.handle(), counterOffset(), 16);
+    bindings_.image(set, vk::BIND_COMPOSITE_DEPTH,
+                    targets_.depth ? targets_.depth.view : in_.dummy2d, pipelines_.nearest(),
+                    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     const bool blend = view_.info.composite == WLK_COMPOSITE_BLEND;
     if (targets_.inputIsTarget && !blend) {
-      bindImage(set, vk::BIND_COMPOSITE_INPUT, targets_.target0.view, pipelines_.nearest(),
-                VK_IMAGE_LAYOUT_GENERAL);
+      bindings_.image(set, vk::BIND_COMPOSITE_INPUT, targets_.target0.view, pipelines_.nearest(),
+                      VK_IMAGE_LAYOUT_GENERAL);
     } else {
-      bindImage(set, vk::BIND_COMPOSITE_INPUT,
-                targets_.colorInput ? targets_.colorInput.view : in_.dummy2d,
-                pipelines_.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+      bindings_.image(set, vk::BIND_COMPOSITE_INPUT,
+                      targets_.colorInput ? targets_.colorInput.view : in_.dummy2d,
+                      pipelines_.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
     if (!blend) {
       const TargetImage& second = targets_.target1 ? targets_.target1 : targets_.target0;
-      bindImage(set, vk::BIND_COMPOSITE_TARGET0, targets_.target0.view, VK_NULL_HANDLE,
-                VK_IMAGE_LAYOUT_GENERAL);
-      bindImage(set, vk::BIND_COMPOSITE_TARGET1, second.view, VK_NULL_HANDLE,
-                VK_IMAGE_LAYOUT_GENERAL);
+      bindings_.image(set, vk::BIND_COMPOSITE_TARGET0, targets_.target0.view, VK_NULL_HANDLE,
+                      VK_IMAGE_LAYOUT_GENERAL);
+      bindings_.image(set, vk::BIND_COMPOSITE_TARGET1, second.view, VK_NULL_HANDLE,
+                      VK_IMAGE_LAYOUT_GENERAL);
     }
   }
 
   void drawBlend(WlkPassStats& stats, uint32_t index) {
     vk_.CmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                              pipelines_.compositeLayout(), 0, 1, &slot_.composite.set, 0,
-                              nullptr);
+                              pipelines_.compositeLayout(), 0, 1, &slot_.composite.set, 0, nullptr);
     VkRenderingAttachmentInfo attachment{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     attachment.imageView = targets_.target0.view;
     attachment.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
@@ -338,8 +338,9 @@ class Recorder {
     rendering.pColorAttachments = &attachment;
     vk_.CmdBeginRendering(commands_, &rendering);
     vk_.CmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, compositePipeline_);
-    const VkViewport viewport{0.0f, 0.0f, static_cast<float>(view_.info.width),
-                              static_cast<float>(view_.info.height), 0.0f, 1.0f};
+    const VkViewport viewport{
+        0.0f, 0.0f, static_cast<float>(view_.info.width), static_cast<float>(view_.info.height),
+        0.0f, 1.0f};
     vk_.CmdSetViewport(commands_, 0, 1, &viewport);
     vk_.CmdSetScissor(commands_, 0, 1, &area);
     vk_.CmdDraw(commands_, 3, 1, 0, 0);
@@ -374,8 +375,10 @@ class Recorder {
     vk_.CmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot_.queries, query);
   }
 
-  void orderShaders() { barrier(COMPUTE, SHADER_ACCESS, COMPUTE |
-                                VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, SHADER_ACCESS); }
+  void orderShaders() {
+    barrier(COMPUTE, SHADER_ACCESS, COMPUTE | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+            SHADER_ACCESS);
+  }
 
   void barrier(VkPipelineStageFlags2 fromStage, VkAccessFlags2 fromAccess,
                VkPipelineStageFlags2 toStage, VkAccessFlags2 toAccess) {
@@ -409,43 +412,6 @@ class Recorder {
     return view_.resources.counters.size() / view_.resources.slots.size() * in_.slot;
   }
 
-  void bindImage(BoundSet& set, uint32_t binding, VkImageView view, VkSampler sampler,
-                 VkImageLayout layout) {
-    const uint64_t identity = bits(view) ^ (bits(sampler) << 1) ^ uint64_t{layout} << 56;
-    if (set.bound[binding] == identity) {
-      return;
-    }
-    set.bound[binding] = identity;
-    const VkDescriptorImageInfo info{sampler, view, layout};
-    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-    write.dstSet = set.set;
-    write.dstBinding = binding;
-    write.descriptorCount = 1;
-    write.descriptorType = sampler == VK_NULL_HANDLE ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
-                                                     : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    write.pImageInfo = &info;
-    vk_.UpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
-    view_.record.stats.descriptorWrites += 1;
-  }
-
-  void bindBuffer(BoundSet& set, uint32_t binding, VkDescriptorType type, VkBuffer buffer,
-                  VkDeviceSize offset, VkDeviceSize range) {
-    const uint64_t identity = bits(buffer) ^ (offset << 40) ^ range << 8;
-    if (set.bound[binding] == identity) {
-      return;
-    }
-    set.bound[binding] = identity;
-    const VkDescriptorBufferInfo info{buffer, offset, range};
-    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-    write.dstSet = set.set;
-    write.dstBinding = binding;
-    write.descriptorCount = 1;
-    write.descriptorType = type;
-    write.pBufferInfo = &info;
-    vk_.UpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
-    view_.record.stats.descriptorWrites += 1;
-  }
-
   vk::Device& device_;
   const vk::Dispatch& vk_;
   const vk::Pipelines& pipelines_;
@@ -457,6 +423,7 @@ class Recorder {
   SliceQuality quality_;
   VkPipeline compositePipeline_ = VK_NULL_HANDLE;
   bool anything_ = false;
+  Bindings bindings_;
   std::array<WlkVulkanImageState, 4> work_{};
 };
 
@@ -485,40 +452,6 @@ void imageBarrier(const vk::Dispatch& vk, VkCommandBuffer commands, VkImage imag
 void recordView(vk::Device& device, const vk::Pipelines& pipelines, VkCommandBuffer commands,
                 ViewState& view, const RecordInput& input, const ViewTargets& targets) {
   Recorder(device, pipelines, commands, view, input, targets).run();
-}
-
-void harvest(vk::Device& device, ViewState& view, uint64_t completed) {
-  ViewResources& r = view.resources;
-  for (size_t i = 0; i < r.slots.size(); ++i) {
-    ViewSlot& slot = r.slots[i];
-    if (slot.harvested || slot.frameIndex > completed) {
-      continue;
-    }
-    slot.harvested = true;
-    uint32_t count = 0;
-    std::memcpy(&count, static_cast<char*>(r.counters.data()) + r.counters.size() /
-                                                                    r.slots.size() * i,
-                sizeof count);
-    view.nonFinite = count;
-    if (slot.frameIndex != view.lastFrame) {
-      continue;
-    }
-    const float period = device.properties().limits.timestampPeriod;
-    uint64_t before = 0;
-    const vk::Dispatch& vk = device.vk();
-    for (uint32_t query = 0; query <= slot.passOfQuery.size(); ++query) {
-      uint64_t now = 0;
-      if (vk.GetQueryPoolResults(device.handle(), slot.queries, query, 1, sizeof now, &now,
-                                 sizeof now, VK_QUERY_RESULT_64_BIT) != VK_SUCCESS) {
-        break;
-      }
-      if (query > 0 && slot.passOfQuery[query - 1] < view.record.passes.size()) {
-        view.record.passes[slot.passOfQuery[query - 1]].gpuTime_ns +=
-            static_cast<uint64_t>(static_cast<double>(now - before) * static_cast<double>(period));
-      }
-      before = now;
-    }
-  }
 }
 
 }  // namespace welkin

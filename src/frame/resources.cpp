@@ -90,6 +90,7 @@ void makeSlots(vk::Device& device, const vk::Pipelines& pipelines, ViewResources
       set.set = makeSet(device, r.pool, pipelines.volumeSetLayout());
     }
     slot.passOfQuery.reserve(r.queryCount);
+    slot.passes.reserve(1 + 2 * size_t{r.volumeCapacity});
     VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
     info.queryCount = r.queryCount;
@@ -209,13 +210,13 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
       std::max<VkDeviceSize>(device.properties().limits.minUniformBufferOffsetAlignment, 16);
   r.volumeStride = alignUp(sizeof(VolumeUniforms), alignment);
   r.slotStride = alignUp(sizeof(FrameUniforms), alignment) + volumeCount * r.volumeStride;
-  r.uniforms = vk::Buffer(device, r.slotStride * framesInFlight,
-                          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, true);
+  r.uniforms =
+      vk::Buffer(device, r.slotStride * framesInFlight, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, true);
   const VkDeviceSize counterStride =
       std::max<VkDeviceSize>(device.properties().limits.minStorageBufferOffsetAlignment, 16);
-  r.counters = vk::Buffer(
-      device, counterStride * framesInFlight,
-      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
+  r.counters =
+      vk::Buffer(device, counterStride * framesInFlight,
+                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
   const uint32_t batches = (quality.sliceCount + quality.batchSize - 1) / quality.batchSize;
   r.queryCount = 2 + volumeCount * 2 * batches;
   const VkDeviceSize pixels = VkDeviceSize{info.width} * info.height;
@@ -243,8 +244,8 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   makeSlots(device, pipelines, r, framesInFlight, memory);
   view.plan.volumes.reserve(volumeCount);
   view.planVolumes.reserve(volumeCount);
-  view.record.passes.reserve(2 + 2 * volumeCount);
-  view.record.passOfQuery.reserve(r.queryCount);
+  view.record.passes.reserve(1 + 2 * size_t{volumeCount});
+  view.record.times.reserve(1 + 2 * size_t{volumeCount});
   std::swap(view.resources, r);
   view.prepared = true;
 }

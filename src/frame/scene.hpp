@@ -70,22 +70,31 @@ struct BoundSet {
   std::array<uint64_t, vk::VOLUME_BINDING_COUNT> bound{};
 };
 
-// What recording reported about a frame, kept until the statistics are asked for.
+// GPU time of a pass over a volume.
+struct PassTime {
+  uint32_t pass = 0;
+  uint64_t volumeId = 0;
+  uint64_t nanoseconds = 0;
+};
+
+// What recording reported about a frame, and the times of the newest frame that is complete.
 struct FrameRecord {
-  explicit FrameRecord(std::pmr::memory_resource* memory) : passes(memory), passOfQuery(memory) {}
+  explicit FrameRecord(std::pmr::memory_resource* memory) : passes(memory), times(memory) {}
   WlkFrameStats stats{};
   std::pmr::vector<WlkPassStats> passes;
-  std::pmr::vector<uint32_t> passOfQuery;  // query i + 1 ends a command of this pass
+  std::pmr::vector<PassTime> times;
 };
 
 struct ViewSlot {
   BoundSet composite;
   std::pmr::vector<BoundSet> volumes;
   VkQueryPool queries = VK_NULL_HANDLE;
-  uint64_t frameIndex = 0;  // last frame recorded into this slot, 0 if none
-  bool harvested = true;    // its counters and timestamps were read
-  std::pmr::vector<uint32_t> passOfQuery;
-  explicit ViewSlot(std::pmr::memory_resource* memory) : volumes(memory), passOfQuery(memory) {}
+  uint64_t frameIndex = 0;                 // last frame recorded into this slot, 0 if none
+  bool harvested = true;                   // its counters and timestamps were read
+  std::pmr::vector<uint32_t> passOfQuery;  // query i + 1 ends a command of this pass
+  std::pmr::vector<PassTime> passes;       // of that frame, in the plan's order
+  explicit ViewSlot(std::pmr::memory_resource* memory)
+      : volumes(memory), passOfQuery(memory), passes(memory) {}
 };
 
 // Images and buffers of a view; remade by wlkPrepare when their sizes change.
@@ -117,7 +126,7 @@ struct ViewState {
   WlkViewInfo info{};
   WlkCamera camera{};
   glm::dmat4 clipFromView{1.0};
-  glm::dmat4 eyeFromNdc{1.0};   // world orientation, relative to the eye
+  glm::dmat4 eyeFromNdc{1.0};  // world orientation, relative to the eye
   glm::dmat4 clipFromEye{1.0};
   double skyDepth = 0;
   WlkQuality quality{};
@@ -126,8 +135,9 @@ struct ViewState {
   std::pmr::vector<PlanVolume> planVolumes;
   FrameRecord record;
   bool prepared = false;
-  uint64_t lastFrame = 0;  // 0: none recorded yet
-  uint64_t nonFinite = 0;  // of the newest frame that was read back
+  uint64_t lastFrame = 0;       // 0: none recorded yet
+  uint64_t harvestedFrame = 0;  // newest frame whose counters were read
+  uint64_t nonFinite = 0;       // of that frame
 };
 
 }  // namespace welkin

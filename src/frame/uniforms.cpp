@@ -54,6 +54,7 @@ void fillFrame(const AirState& air, const ViewState& view, interface_::FrameUnif
     const double half = std::sin(0.5 * radius);
     // Radiance of a uniform disk: E / (pi sin^2 r); the rim's 1 - cos r = 2 sin^2(r / 2). The soft
     // rim (diskCoverage: a smoothstep over the last 8 % of the area) keeps 0.96 of the area.
+    out.lightDisk = {0.0f, 0.0f, 0.0f, 1.0e-12f};  // no disk: a rim that covers nothing
     if (sine > 0) {
       const double solidAngle = std::numbers::pi * sine * sine * 0.96;
       out.lightDisk = glm::vec4(vec(air.light->irradiance) / static_cast<float>(solidAngle),
@@ -64,8 +65,7 @@ void fillFrame(const AirState& air, const ViewState& view, interface_::FrameUnif
     out.air = glm::vec4(vec(air.sky->rayleighScattering), air.sky->scaleHeight);
   }
   if (air.fog) {
-    out.fog = {air.fog->extinction, air.fog->baseAltitude, air.fog->scaleHeight,
-               air.planet.radius};
+    out.fog = {air.fog->extinction, air.fog->baseAltitude, air.fog->scaleHeight, air.planet.radius};
     const model::f64::FogPhase p = model::f64::fogPhaseFromDiameter(air.fog->dropletDiameter_um);
     out.fogAlbedo = glm::vec4(vec(air.fog->singleScatteringAlbedo), static_cast<float>(p.weightD));
     out.fogPhase = {static_cast<float>(p.gHg), static_cast<float>(p.gapHg),

@@ -16,17 +16,45 @@ using uint = unsigned int;
 constexpr bool AIR_ENABLED = true;
 constexpr bool FOG_ENABLED = true;
 
-inline real exp(real x) { return std::exp(x); }
-inline real log(real x) { return std::log(x); }
-inline real sqrt(real x) { return std::sqrt(x); }
-inline real sin(real x) { return std::sin(x); }
-inline real cos(real x) { return std::cos(x); }
-inline real abs(real x) { return std::fabs(x); }
-inline real floor(real x) { return std::floor(x); }
-inline real ceil(real x) { return std::ceil(x); }
-inline real min(real a, real b) { return b < a ? b : a; }
-inline real max(real a, real b) { return a < b ? b : a; }
-inline real clamp(real x, real lo, real hi) { return min(max(x, lo), hi); }
-inline real mix(real a, real b, real t) { return a * (real(1) - t) + b * t; }
-inline real sign(real x) { return x > real(0) ? real(1) : (x < real(0) ? real(-1) : real(0)); }
-inline vec3 exp(vec3 v) { return vec3(std::exp(v.x), std::exp(v.y), std::exp(v.z)); }
+inline real exp(real x) {
+  return std::exp(x);
+}
+inline real log(real x) {
+  return std::log(x);
+}
+inline real sqrt(real x) {
+  return std::sqrt(x);
+}
+inline real sin(real x) {
+  return std::sin(x);
+}
+inline real cos(real x) {
+  return std::cos(x);
+}
+inline real abs(real x) {
+  return std::fabs(x);
+}
+inline real floor(real x) {
+  return std::floor(x);
+}
+inline real ceil(real x) {
+  return std::ceil(x);
+}
+inline real min(real a, real b) {
+  return b < a ? b : a;
+}
+inline real max(real a, real b) {
+  return a < b ? b : a;
+}
+inline real clamp(real x, real lo, real hi) {
+  return min(max(x, lo), hi);
+}
+inline real mix(real a, real b, real t) {
+  return a * (real(1) - t) + b * t;
+}
+inline real sign(real x) {
+  return x > real(0) ? real(1) : (x < real(0) ? real(-1) : real(0));
+}
+inline vec3 exp(vec3 v) {
+  return vec3(std::exp(v.x), std::exp(v.y), std::exp(v.z));
+}

@@ -45,8 +45,8 @@ template <typename Function>
 Function Headless::load(const char* name) const {
   auto function = reinterpret_cast<Function>(get_(instance_, name));
   if (function == nullptr) {
-    fail(WLK_ERROR_NO_DEVICE, WLK_STRUCT_HEADLESS_INFO, name,
-         "the Vulkan loader does not offer %s", name);
+    fail(WLK_ERROR_NO_DEVICE, WLK_STRUCT_HEADLESS_INFO, name, "the Vulkan loader does not offer %s",
+         name);
   }
   return function;
 }
@@ -87,8 +87,8 @@ void Headless::createInstance(const HeadlessOptions& options) {
       VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
   messenger.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
                               VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-  messenger.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
-                          VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT;
+  messenger.messageType =
+      VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT;
   messenger.pfnUserCallback = onMessage;
   messenger.pUserData = &options_;
   const VkValidationFeatureEnableEXT synchronization =

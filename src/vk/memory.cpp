@@ -68,8 +68,7 @@ bool DeviceMemory::place(Block& block, const VkMemoryRequirements& needs, Alloca
     }
     result.offset = begin;
     result.size = needs.size;
-    result.mapped =
-        block.mapped == nullptr ? nullptr : static_cast<char*>(block.mapped) + begin;
+    result.mapped = block.mapped == nullptr ? nullptr : static_cast<char*>(block.mapped) + begin;
     return true;
   }
   return false;

@@ -29,13 +29,15 @@ void writeChannel(const std::string& file, const char* channel, const Imath::Box
                   float value) {
   Imf::Header header(window, window);
   header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
-  const size_t width = static_cast<size_t>(window.max.x - window.min.x + 1);
-  std::vector<float> row(width, value);
+  const auto width = static_cast<size_t>(window.max.x - window.min.x + 1);
+  const auto height = static_cast<size_t>(window.max.y - window.min.y + 1);
+  std::vector<float> values(width * height, value);
   Imf::FrameBuffer frame;
-  frame.insert(channel, Imf::Slice::Make(Imf::FLOAT, row.data(), window, sizeof(float), 0));
+  frame.insert(channel, Imf::Slice::Make(Imf::FLOAT, values.data(), window, sizeof(float),
+                                         width * sizeof(float)));
   Imf::OutputFile output(file.c_str(), header);
   output.setFrameBuffer(frame);
-  output.writePixels(window.max.y - window.min.y + 1);
+  output.writePixels(static_cast<int>(height));
 }
 
 TEST(HostExr, KeepsEveryBitOfAPicture) {
@@ -103,7 +105,7 @@ TEST(HostPng, MapsBlackToBlackAndBrightToWhiteMonotonically) {
     }
     EXPECT_EQ(host::displayValue(-1.0, 0.0, map), 0.0);
     EXPECT_EQ(host::displayValue(NAN, 0.0, map), 0.0);
-    EXPECT_EQ(host::displayValue(INFINITY, 0.0, map), 1.0);
+    EXPECT_DOUBLE_EQ(host::displayValue(INFINITY, 0.0, map), 1.0);
     EXPECT_EQ(host::displayValue(0.0, 0.0, map), 0.0);
     EXPECT_GT(last, 0.99);
   }

@@ -2,6 +2,7 @@
 // Every scene under samples/scenes parses, so that a renamed key cannot rot one.
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -27,13 +28,14 @@ TEST_P(ShippedScene, ParsesAndHasALight) {
   EXPECT_FALSE(scene.lights.empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene, testing::ValuesIn(shippedScenes()),
-                         [](const testing::TestParamInfo<std::string>& info) {
-                           std::string name = info.param.substr(0, info.param.find('.'));
-                           for (char& c : name) {
-                             c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-                           }
-                           return name;
-                         });
+std::string caseName(const testing::TestParamInfo<std::string>& scene) {
+  std::string name = scene.param.substr(0, scene.param.find('.'));
+  for (char& c : name) {
+    c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  }
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene, testing::ValuesIn(shippedScenes()), caseName);
 
 }  // namespace

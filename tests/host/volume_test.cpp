@@ -67,7 +67,7 @@ TEST(HostLes, FindsTheIndexBase) {
 }
 
 TEST(HostLes, RefusesBrokenTextNamingTheLine) {
-  expectInputError("line 2", [] { les(""); });
+  expectInputError("line 1", [] { les(""); });
   expectInputError("line 2", [] { les("# c\n3 2\n"); });
   expectInputError("size: expected", [] { les("# c\n0 2 2\n0.02 0.02 0 1\n"); });
   expectInputError("size: expected", [] { les("# c\n900000 900000 900000\n"); });

@@ -229,7 +229,8 @@ vec2 airDepth(Air air, AirPath path, AirPoint a, AirPoint b) {
 }
 
 // Where the stops of one layer lie on a ray: close together near `focus`, the ray's point in the
-// densest part of the layer, and roughly at equal steps of the layer's depth to either side.
+// densest part of the layer, and roughly at equal steps of the layer's depth to either side; but in
+// an opaque layer where the light comes from, a few optical depths below its surface.
 struct Stops {
   real focus;
   real width;
@@ -237,23 +238,38 @@ struct Stops {
   real left;
   real right;
   real share;
+  real leftSkip;
+  real rightSkip;
 };
 
 // The layer's depth falls along the ray like e^-E, E = slope d + 0.75 d^2, d = distance from the
-// focus / sqrt(2 r H): the hazard of erfc(z) is close to z + sqrt(z^2 + 4/pi). Only the error of
-// the radiance depends on the stops, so a crude model does.
+// focus / sqrt(2 r H): the hazard of erfc(z) is close to z + sqrt(z^2 + 4/pi), and the depth beyond
+// to 1 / hazard. Only the error of the radiance depends on the stops, so a crude model does.
 const real HAZARD_0 = real(1.2732395);
-Stops layerStops(Air air, AirPath path, real focus, real scaleHeight) {
+#ifndef OPQ
+#define OPQ 2.0
+#define BEND 1.0
+#endif
+const real OPAQUE = real(OPQ);
+Stops layerStops(Air air, AirPath path, real focus, real extinction, real base, real scaleHeight) {
+  real low = altitudeAlongRay(path.altitude, path.viewMu, air.planetRadius, focus);
+  real radius = air.planetRadius + low;
   Stops stops;
   stops.focus = focus;
-  stops.width = sqrt(real(2.0f) * (air.planetRadius + max(path.altitude, real(0.0f))) *
-                     scaleHeight);
+  stops.width = sqrt(real(2.0f) * radius * scaleHeight);
   real z = abs(focus - path.lowest) / stops.width;
   stops.slope = z + sqrt(z * z + HAZARD_0);
   real left = focus / stops.width;
   real right = (path.reach - focus) / stops.width;
   stops.left = left * (stops.slope + real(0.75f) * left);
   stops.right = right * (stops.slope + real(0.75f) * right);
+  real depth = extinction * layerDensity(layerExponent(low, base, scaleHeight)) * stops.width;
+  real lightZ = ((air.planetRadius + path.altitude) * path.sunMu + focus * path.viewSun) /
+                stops.width;
+  real light = depth / (lightZ + sqrt(lightZ * lightZ + HAZARD_0));
+  real view = depth * stops.left / ((real(1.0f) + stops.left) * stops.slope);
+  stops.leftSkip = min(log(max((light + view) / OPAQUE, real(1.0f))), stops.left);
+  stops.rightSkip = min(log(max(light / OPAQUE, real(1.0f))), stops.right);
   real weightLeft = stops.left / (real(1.0f) + stops.left);
   real weightRight = stops.right / (real(1.0f) + stops.right);
   stops.share = weightLeft / (weightLeft + weightRight + DIRECTION_FLOOR);
@@ -262,12 +278,13 @@ Stops layerStops(Air air, AirPath path, real focus, real scaleHeight) {
 
 // Distance of the stop with rank u in (0, 1): E = v Ee / (1 + k (1 - v) Ee) steps evenly when the
 // end's Ee is small and like -ln(1 - v) when it is large.
-const real STOP_BEND = real(1.4);
+const real STOP_BEND = real(BEND);
 real stopDistance(Stops stops, real u) {
   bool before = u < stops.share;
   real v = before ? real(1.0f) - u / stops.share : (u - stops.share) / (real(1.0f) - stops.share);
-  real end = before ? stops.left : stops.right;
-  real e = v * end / (real(1.0f) + STOP_BEND * (real(1.0f) - v) * end);
+  real skip = before ? stops.leftSkip : stops.rightSkip;
+  real end = (before ? stops.left : stops.right) - skip;
+  real e = skip + v * end / (real(1.0f) + STOP_BEND * (real(1.0f) - v) * end);
   real d = real(2.0f) * e / (stops.slope + sqrt(stops.slope * stops.slope + real(3.0f) * e));
   return stops.focus + (before ? -stops.width * d : stops.width * d);
 }
@@ -329,8 +346,10 @@ AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, real fo
   real radius = air.planetRadius + path.altitude;
   real focus = clamp(path.lowest, real(0.0f), path.reach);
   vec2 shadow = shadowStops(air, path);
-  Stops airStops = layerStops(air, path, focus, air.airScaleHeight);
-  Stops fogStops = layerStops(air, path, focus, air.fogScaleHeight);
+  Stops airStops = layerStops(air, path, focus, air.airScattering.y, real(0.0f),
+                              air.airScaleHeight);
+  Stops fogStops = layerStops(air, path, focus, air.fogExtinction, air.fogBaseAltitude,
+                              air.fogScaleHeight);
   int airRank = AIR_ENABLED ? 1 : AIR_STOPS;
   int fogRank = FOG_STOPS;
   if (FOG_ENABLED) {

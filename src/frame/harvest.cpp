@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Reads back what frames left on the GPU: counters and timestamps.
+#include <cstring>
+
+#include "frame/record.hpp"
+
+namespace welkin {
+
+void harvest(vk::Device& device, ViewState& view, uint64_t completed) {
+  ViewResources& r = view.resources;
+  for (size_t i = 0; i < r.slots.size(); ++i) {
+    ViewSlot& slot = r.slots[i];
+    if (slot.harvested || slot.frameIndex > completed) {
+      continue;
+    }
+    slot.harvested = true;
+    uint32_t count = 0;
+    std::memcpy(&count,
+                static_cast<char*>(r.counters.data()) + r.counters.size() / r.slots.size() * i,
+                sizeof count);
+    // Slots come up in any order; keep the newest frame's figures.
+    if (slot.frameIndex < view.harvestedFrame) {
+      continue;
+    }
+    view.harvestedFrame = slot.frameIndex;
+    view.nonFinite = count;
+    const double period = static_cast<double>(device.properties().limits.timestampPeriod);
+    uint64_t before = 0;
+    for (uint32_t query = 0; query <= slot.passOfQuery.size(); ++query) {
+      uint64_t now = 0;
+      if (device.vk().GetQueryPoolResults(device.handle(), slot.queries, query, 1, sizeof now, &now,
+                                          sizeof now, VK_QUERY_RESULT_64_BIT) != VK_SUCCESS) {
+        break;
+      }
+      if (query > 0) {
+        slot.passes[slot.passOfQuery[query - 1]].nanoseconds +=
+            static_cast<uint64_t>(static_cast<double>(now - before) * period);
+      }
+      before = now;
+    }
+    view.record.times.assign(slot.passes.begin(), slot.passes.end());
+  }
+}
+
+}  // namespace welkin
