@@ -29,6 +29,6 @@ build() {
   if command -v ccache >/dev/null; then
     export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
   fi
-  cmake --preset "$preset" --log-level=WARNING
-  cmake --build --preset "$preset" ${1:+--target "$@"}
+  cmake --preset "$preset" --log-level=WARNING &&
+    cmake --build --preset "$preset" ${1:+--target "$@"}
 }

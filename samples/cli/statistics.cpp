@@ -14,8 +14,6 @@ using Ordered = nlohmann::ordered_json;
 
 const char* passKind(uint32_t pass) {
   switch (pass) {
-    case WLK_PASS_UPLOAD:
-      return "upload";
     case WLK_PASS_LIGHT_SLICES:
       return "light_slices";
     case WLK_PASS_EYE_SLICES:

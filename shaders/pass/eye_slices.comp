@@ -31,7 +31,7 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 #include "fields.glsl"
 #include "air_nodes.glsl"
 
-const float OPAQUE = 1.0e-6f;     // transmittance at which a ray ends; bound of its relative error
+const float RAY_ENDS = 1.0e-6f;     // transmittance at which a ray ends; bound of its relative error
 const float LONGEST_RAY = 1.0e7f; // m inside one volume
 const uint MAX_SUBSTEPS = 256u;   // per slab, for rays that run along it
 
@@ -113,7 +113,7 @@ void main() {
     state = volumeState[index];
   }
 
-  if (last > t && !(rate > 0.0f && state.w < OPAQUE)) {
+  if (last > t && !(rate > 0.0f && state.w < RAY_ENDS)) {
     vec4 phase = vec4(0.0f);
     float y = oneMinusCosine(direction, frame.light.xyz);
     float angle = phaseCoordinate(y);
@@ -170,7 +170,7 @@ void main() {
         dt = max(stop - t, 0.0f) / float(left);
       }
       guard += 1u;
-    } while (t < last && batch.w > OPAQUE && guard < 65000u);
+    } while (t < last && batch.w > RAY_ENDS && guard < 65000u);
 
     if (rate > 0.0f) {
       state = vec4(state.xyz + state.w * batch.xyz, state.w * batch.w);

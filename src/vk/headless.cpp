@@ -12,6 +12,7 @@
 namespace welkin::vk {
 namespace {
 
+constexpr VkQueueFlags QUEUE_FLAGS = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
 constexpr const char* VALIDATION_LAYER = "VK_LAYER_KHRONOS_validation";
 
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
@@ -146,9 +147,8 @@ void Headless::pickDevice(const HeadlessOptions& options) {
     getFamilies(device, &families, nullptr);
     std::vector<VkQueueFamilyProperties> list(families);
     getFamilies(device, &families, list.data());
-    constexpr VkQueueFlags needed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
     const auto found = std::find_if(list.begin(), list.end(), [](const auto& family) {
-      return (family.queueFlags & needed) == needed;
+      return (family.queueFlags & QUEUE_FLAGS) == QUEUE_FLAGS;
     });
     if (found != list.end()) {
       best = rank(properties.deviceType);

@@ -17,8 +17,8 @@ constexpr double VACUUM = 40.0;  // scale heights after which a density no longe
 double altitudeAt(const Planet& planet, double altitude, double mu, double t) {
   const long double r = static_cast<long double>(planet.radius) + altitude;
   const long double up = r + static_cast<long double>(mu) * t;
-  const long double across2 = (1.0L - static_cast<long double>(mu) * mu) *
-                              static_cast<long double>(t) * t;
+  const long double across2 =
+      (1.0L - static_cast<long double>(mu) * mu) * static_cast<long double>(t) * t;
   return static_cast<double>(std::sqrt(up * up + across2) - planet.radius);
 }
 
@@ -35,8 +35,8 @@ std::vector<double> layerCuts(const Planet& planet, double altitude, double mu, 
   const double lowestRadius = r * std::sqrt(std::max((1.0 - mu) * (1.0 + mu), 0.0));
   const double lowest = -r * mu;
   const double lowestAltitude = lowestRadius - planet.radius;
-  const double start = std::min(altitude, altitudeAt(planet, altitude, mu,
-                                                     std::clamp(lowest, 0.0, length)));
+  const double start =
+      std::min(altitude, altitudeAt(planet, altitude, mu, std::clamp(lowest, 0.0, length)));
   std::vector<double> cuts;
   const double top = std::max(start, base) + VACUUM * scaleHeight;
   const double reach = halfChord(planet, lowestRadius, top);
@@ -90,8 +90,8 @@ struct Integrand {
     for (std::size_t k = 0; k < rule.node.size(); ++k) {
       const double t = t0 + (t1 - t0) * static_cast<double>(rule.node[k]);
       const double h = altitudeAt(planet, ray.altitude, ray.viewMu, t);
-      const double mu = std::clamp((r * ray.lightMu + t * ray.viewLight) / (planet.radius + h),
-                                   -1.0, 1.0);
+      const double mu =
+          std::clamp((r * ray.lightMu + t * ray.viewLight) / (planet.radius + h), -1.0, 1.0);
       const double lit = visibleFraction(planet, h, mu, angularRadius);
       if (lit <= 0.0) {
         continue;
@@ -107,10 +107,10 @@ struct Integrand {
       const double fog =
           planet.fogExtinction * std::exp((planet.fogBaseAltitude - h) / planet.fogScaleHeight);
       for (std::size_t c = 0; c < 3; ++c) {
-        const double source = planet.airScattering[c] * air * airPhase +
-                              fog * planet.fogAlbedo[c] * fogPhase;
-        sum[c] += static_cast<double>(rule.weight[k]) * (t1 - t0) * lit * source *
-                  std::exp(-depth[c]);
+        const double source =
+            planet.airScattering[c] * air * airPhase + fog * planet.fogAlbedo[c] * fogPhase;
+        sum[c] +=
+            static_cast<double>(rule.weight[k]) * (t1 - t0) * lit * source * std::exp(-depth[c]);
       }
     }
     return sum;
@@ -147,8 +147,8 @@ Columns columns(const Planet& planet, double altitude, double mu, double length)
   Columns c{};
   c.air = layerColumn(planet, altitude, mu, length, 0.0, planet.airScaleHeight);
   if (planet.fogExtinction > 0.0) {
-    c.fog = layerColumn(planet, altitude, mu, length, planet.fogBaseAltitude,
-                        planet.fogScaleHeight);
+    c.fog =
+        layerColumn(planet, altitude, mu, length, planet.fogBaseAltitude, planet.fogScaleHeight);
   }
   return c;
 }
@@ -176,8 +176,8 @@ double visibleFraction(const Planet& planet, double altitude, double lightMu,
 std::array<double, 3> inscatter(const Planet& planet, const PlanetRay& ray, double airPhase,
                                 double fogPhase, double angularRadius, double tolerance) {
   static const GaussRule rule = gaussLegendre(5);
-  std::vector<double> cuts = layerCuts(planet, ray.altitude, ray.viewMu, ray.length, 0.0,
-                                       planet.airScaleHeight);
+  std::vector<double> cuts =
+      layerCuts(planet, ray.altitude, ray.viewMu, ray.length, 0.0, planet.airScaleHeight);
   if (planet.fogExtinction > 0.0) {
     const std::vector<double> fog = layerCuts(planet, ray.altitude, ray.viewMu, ray.length,
                                               planet.fogBaseAltitude, planet.fogScaleHeight);

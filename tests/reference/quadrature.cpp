@@ -69,11 +69,13 @@ GaussRule gaussLegendre(int count) {
   return rule;
 }
 
-long double flatOpticalDepth(const FlatRay& ray) { return depthTo(ray, ray.distance); }
+long double flatOpticalDepth(const FlatRay& ray) {
+  return depthTo(ray, ray.distance);
+}
 
 long double flatInscatter(const FlatRay& ray) {
-  static const GaussRule rule = gaussLegendre(20);
-  constexpr int GRADES = 28;   // factors of 3: 2e-13 of the stretch
+  static const GaussRule rule = gaussLegendre(22);
+  constexpr int GRADES = 22;   // factors of 4: 6e-14 of the stretch
   constexpr int HEIGHTS = 80;  // scale heights along the ray
   std::array<long double, 2 * GRADES + HEIGHTS + 2> cut{};
   std::size_t count = 0;
@@ -82,7 +84,7 @@ long double flatInscatter(const FlatRay& ray) {
   cut[count++] = end;
   long double fraction = 1.0L;
   for (int i = 0; i < GRADES; ++i) {
-    fraction /= 3.0L;
+    fraction /= 4.0L;
     cut[count++] = end * fraction;
     cut[count++] = end - end * fraction;
   }
@@ -98,11 +100,11 @@ long double flatInscatter(const FlatRay& ray) {
     height[i] = logIntegrand(ray, cut[i]);
     highest = std::max(highest, height[i]);
   }
-  // Panels more than e^-60 below the peak at both ends are left out: peaks are wider than panels.
+  // Panels more than e^-45 below the peak at both ends are left out: peaks are wider than panels.
   long double sum = 0.0L;
   for (std::size_t i = 0; i + 1 < count; ++i) {
     const long double width = cut[i + 1] - cut[i];
-    if (!(width > 0.0L) || std::max(height[i], height[i + 1]) < highest - 60.0L) {
+    if (!(width > 0.0L) || std::max(height[i], height[i + 1]) < highest - 45.0L) {
       continue;
     }
     for (std::size_t k = 0; k < rule.node.size(); ++k) {

@@ -246,11 +246,8 @@ struct Stops {
 // focus / sqrt(2 r H): the hazard of erfc(z) is close to z + sqrt(z^2 + 4/pi), and the depth beyond
 // to 1 / hazard. Only the error of the radiance depends on the stops, so a crude model does.
 const real HAZARD_0 = real(1.2732395);
-#ifndef OPQ
-#define OPQ 2.0
-#define BEND 1.0
-#endif
-const real OPAQUE = real(OPQ);
+// Depth from which a layer counts as opaque, for the stops.
+const real OPAQUE = real(2.0f);
 Stops layerStops(Air air, AirPath path, real focus, real extinction, real base, real scaleHeight) {
   real low = altitudeAlongRay(path.altitude, path.viewMu, air.planetRadius, focus);
   real radius = air.planetRadius + low;
@@ -277,8 +274,9 @@ Stops layerStops(Air air, AirPath path, real focus, real extinction, real base, 
 }
 
 // Distance of the stop with rank u in (0, 1): E = v Ee / (1 + k (1 - v) Ee) steps evenly when the
-// end's Ee is small and like -ln(1 - v) when it is large.
-const real STOP_BEND = real(BEND);
+// end's Ee is small and much like -ln(1 - v) when it is large. k = 0.7 and OPAQUE = 2 are the best
+// of 0.7, 1, 1.4 and 1, 2, 4 over random rays with suns to 88 degrees, with and without fog.
+const real STOP_BEND = real(0.7);
 real stopDistance(Stops stops, real u) {
   bool before = u < stops.share;
   real v = before ? real(1.0f) - u / stops.share : (u - stops.share) / (real(1.0f) - stops.share);

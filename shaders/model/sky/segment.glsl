@@ -24,14 +24,15 @@ real segmentInscatter(real nearSunDepth, real farSunDepth, real opticalDepth) {
   return tau * safeExp(-min(a, b)) * phi1(abs(b - a));
 }
 
-// Highest exponent of the density's growth along a downward ray. What lies deeper is opaque in any
-// case: e^40 = 2e17.
+// Highest exponent of the density's growth along a downward ray, which ends there: what lies deeper
+// is opaque in any case, e^40 = 2e17.
 const real GROWTH_CAP = real(40.0f);
 
 // Optical depth of `distance` (<= DEPTH_CAP) m with extinction (1/m) at the near end, heightRatio =
 // rise / scale height: [R04] Eq. 11 as beta K phi1(gamma p K), free of 0/0 for horizontal rays.
 real exponentialDepth(real extinction, real heightRatio, real distance) {
-  return min(extinction * distance * phi1(max(heightRatio, -GROWTH_CAP)), DEPTH_CAP);
+  real reach = heightRatio < -GROWTH_CAP ? distance * (-GROWTH_CAP / heightRatio) : distance;
+  return min(extinction * reach * phi1(max(heightRatio, -GROWTH_CAP)), DEPTH_CAP);
 }
 
 // [R04] Eq. 11-15 as corrected, flat Earth: extinctionAtEye and inverseScaleHeight (> 0) in 1/m,
@@ -40,11 +41,11 @@ real exponentialDepth(real extinction, real heightRatio, real distance) {
 Segment flatExponentialSegment(real extinctionAtEye, real inverseScaleHeight, real viewSlope,
                                real lightSlope, real distance) {
   real length = min(distance, DEPTH_CAP);
-  real rise = max(inverseScaleHeight * viewSlope * length, -GROWTH_CAP);
+  real rise = inverseScaleHeight * viewSlope * length;
   real nearDepth = extinctionAtEye / (inverseScaleHeight * max(lightSlope, DIRECTION_FLOOR));
   Segment result;
   result.opticalDepth = exponentialDepth(extinctionAtEye, rise, length);
-  real lit = segmentInscatter(nearDepth, nearDepth * safeExp(-rise), result.opticalDepth);
+  real lit = segmentInscatter(nearDepth, nearDepth * safeExp(min(-rise, GROWTH_CAP)), result.opticalDepth);
   result.inscatter = lightSlope > real(0.0f) ? lit : real(0.0f);
   return result;
 }

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// The window, and what the user does in it.
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <string>
+
+#include "camera.hpp"
+
+struct GLFWwindow;
+
+class Window {
+ public:
+  Window(uint32_t width, uint32_t height);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  GLFWwindow* handle() const { return window_; }
+  bool closed() const;
+  // Pixels; waits while the window is minimised.
+  VkExtent2D extent() const;
+  // Moves the camera and the clock (hours) by the input since the last call.
+  void poll(Camera& camera, double& hour);
+  void setTitle(const std::string& title);
+
+ private:
+  bool pressed(int key) const;
+  GLFWwindow* window_ = nullptr;
+  double time_ = 0.0;
+  double mouseX_ = 0.0;
+  double mouseY_ = 0.0;
+};

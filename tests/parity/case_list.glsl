@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Numbers of the parity cases, for GLSL and C++.
+const int CASE_NUMERIC = 0;
+const int CASE_BOX = 1;
+const int CASE_ALTITUDE = 2;
+const int CASE_GROUND = 3;
+const int CASE_PHASE = 4;
+const int CASE_FOG_PARAMETERS = 5;
+const int CASE_FOG_PHASE = 6;
+const int CASE_SCATTERING_TABLE = 7;
+const int CASE_SLICES = 8;
+const int CASE_COMPOSITE = 9;
+const int CASE_SEGMENT = 10;
+const int CASE_FLAT_SEGMENT = 11;
+const int CASE_LIGHT = 12;
+const int CASE_AIR_DEPTH = 13;
+const int CASE_AIR = 14;
+const int CASE_COUNT = 15;

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Every public function of shaders/model on the device against double on the CPU, same text.
+// Tolerance per number: condition x built-in bound, plus what float rounding makes of the same text
+// on the CPU, plus a few roundings for the freedom of order that SPIR-V leaves.
+#include "parity/parity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
+
+#include "parity_spv.h"
+#include "support/compute_runner.hpp"
+
+namespace {
+
+using namespace parity;
+
+constexpr uint32_t GROUP = 64;
+constexpr size_t ROWS = 8192;
+constexpr double EPS_FLOAT = 0x1p-24;
+constexpr unsigned NOISE_SAMPLES = 6;
+constexpr double NOISE_FACTOR = 2;     // the worst of 6 sign patterns against the worst of all
+constexpr double ROUNDING_FACTOR = 4;  // CPU and device round in a different order
+constexpr double ROUNDINGS = 24;       // where the CPU happens to round to the right number
+constexpr double ABSOLUTE = 1e-18;     // tails under e^-46 are cut, at slightly different arguments
+
+class Parity : public testing::TestWithParam<int> {
+ protected:
+  static void SetUpTestSuite() { runner_ = std::make_unique<support::ComputeRunner>(); }
+  static void TearDownTestSuite() { runner_.reset(); }
+  static std::unique_ptr<support::ComputeRunner> runner_;
+};
+std::unique_ptr<support::ComputeRunner> Parity::runner_;
+
+// Size against which rounding is measured: the result, but for a difference its operands.
+double scaleOf(int which, const Row& row, size_t component, double value) {
+  if (which == CASE_ALTITUDE && component == 0) {
+    const double t = row[3];
+    return std::max(
+        {std::abs(static_cast<double>(row[0])), std::abs(t * row[1]), t * t / (2.0 * row[2])});
+  }
+  return std::abs(value);
+}
+
+// Rays within float rounding of the horizon may hit or miss.
+bool undecided(int which, const Row& row) {
+  if (which != CASE_GROUND) {
+    return false;
+  }
+  const double h = row[0];
+  const double radius = row[2];
+  const double horizon = -std::sqrt(h * (2 * radius + h)) / (radius + h);
+  return std::abs(row[1] - horizon) < 8 * EPS_FLOAT;
+}
+
+TEST_P(Parity, DeviceMatchesDouble) {
+  const int which = GetParam();
+  const std::vector<Row> rows = inputs(which, ROWS);
+  std::vector<float> flat(rows.size() * std::tuple_size_v<Row>);
+  std::memcpy(flat.data(), rows.data(), flat.size() * sizeof(float));
+  const std::vector<float> device =
+      runner_->run(parity_spv, which, flat, rows.size() * 8, ROWS / GROUP);
+  double worst = 0;
+  size_t failures = 0;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    if (undecided(which, rows[i])) {
+      continue;
+    }
+    const Result exact = evaluateDouble(which, rows[i]);
+    const Result single = evaluateFloat(which, rows[i]);
+    Result noise{};
+    for (unsigned seed = 1; seed <= NOISE_SAMPLES; ++seed) {
+      const Result noisy = evaluateNoisy(which, rows[i], seed * 7919);
+      for (size_t k = 0; k < noise.size(); ++k) {
+        noise[k] = std::max(noise[k], std::abs(noisy[k] - exact[k]));
+      }
+    }
+    for (size_t k = 0; k < exact.size(); ++k) {
+      const double value = static_cast<double>(device[i * 8 + k]);
+      const double tolerance =
+          NOISE_FACTOR * noise[k] + ROUNDING_FACTOR * std::abs(single[k] - exact[k]) +
+          ROUNDINGS * EPS_FLOAT * scaleOf(which, rows[i], k, exact[k]) + ABSOLUTE;
+      const double error = std::abs(value - exact[k]);
+      worst = std::max(worst, error / tolerance);
+      if (!(error <= tolerance) && ++failures <= 5) {
+        ADD_FAILURE() << caseName(which) << " row " << i << " output " << k << ": device " << value
+                      << ", CPU float " << single[k] << ", double " << exact[k] << ", tolerance "
+                      << tolerance << "\n  inputs " << testing::PrintToString(rows[i]);
+      }
+    }
+  }
+  EXPECT_EQ(failures, 0U) << "of " << rows.size();
+  RecordProperty("worst_percent_of_tolerance", static_cast<int>(worst * 100));
+  EXPECT_TRUE(runner_->messages().empty()) << runner_->messages().front();
+}
+
+INSTANTIATE_TEST_SUITE_P(Model, Parity, testing::Range(0, CASE_COUNT),
+                         [](const testing::TestParamInfo<int>& info) {
+                           return std::string(caseName(info.param));
+                         });
+
+}  // namespace

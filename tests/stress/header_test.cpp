@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// sType, structSize and next of every structure that goes in or out, and null pointers.
+#include <welkin/welkin_vulkan.h>
+
+#include "stress/abuse.hpp"
+
+namespace welkin::test {
+namespace {
+
+template <typename T>
+void abuseOutput(const std::function<WlkResult(T*)>& call, const char* type) {
+  EXPECT_FAILS(call(nullptr), WLK_ERROR_INVALID_ARGUMENT, type);
+  auto bad = make<T>();
+  bad.sType = WLK_STRUCT_SKY;
+  EXPECT_FAILS(call(&bad), WLK_ERROR_UNKNOWN_STRUCT, "sType");
+  bad = make<T>();
+  bad.structSize = sizeof(T) - 1;
+  EXPECT_FAILS(call(&bad), WLK_ERROR_INVALID_ARGUMENT, "structSize");
+  bad = make<T>();
+  const std::array<uint32_t, 4> unknown{9999, 16, 0, 0};
+  bad.next = &unknown;
+  EXPECT_FAILS(call(&bad), WLK_ERROR_UNKNOWN_STRUCT, "next");
+  struct Longer {
+    T known;
+    unsigned char tail[16];
+  };
+  Longer longer{make<T>(), {}};
+  longer.known.structSize = sizeof longer;
+  std::memset(longer.tail, 0x5a, sizeof longer.tail);
+  EXPECT_GE(call(&longer.known), 0);
+  for (const unsigned char byte : longer.tail) {
+    EXPECT_EQ(byte, 0x5a) << "the library wrote past what it knows";
+  }
+}
+
+TEST(StructHeader, OfSceneStructuresIsCheckedBeforeAnythingChanges) {
+  VictimScene& victim = VictimScene::get();
+  const WlkContext c = victim.scene.context;
+  auto planet = make<WlkPlanet>();
+  planet.radius = 5e6f;
+  abuseHeader<WlkPlanet>(planet, [&](const WlkPlanet* p) { return wlkSetPlanet(c, p); });
+  auto sky = make<WlkSky>();
+  sky.scaleHeight = 4000.0f;
+  abuseHeader<WlkSky>(sky, [&](const WlkSky* p) { return wlkSetSky(c, p); });
+  auto fog = make<WlkFog>();
+  fog.extinction = 0.5f;
+  abuseHeader<WlkFog>(fog, [&](const WlkFog* p) { return wlkSetFog(c, p); });
+  auto light = make<WlkLight>();
+  light.irradiance[1] = 7.0f;
+  abuseHeader<WlkLight>(light, [&](const WlkLight* p) {
+    return wlkSetLights(c, 1, p->structSize < sizeof *p ? sizeof *p : p->structSize, p);
+  });
+  // The longer structures above were accepted.
+  victim.restore();
+  victim.expectUnchanged();
+}
+
+TEST(StructHeader, OfCreationStructuresIsCheckedBeforeAnythingIsMade) {
+  VictimScene& victim = VictimScene::get();
+  const WlkContext c = victim.scene.context;
+  abuseHeader<WlkMediumInfo>(make<WlkMediumInfo>(), [&](const WlkMediumInfo* p) {
+    WlkMedium medium{};
+    const WlkResult result = wlkCreateMedium(c, p, &medium);
+    EXPECT_EQ(medium.id != 0, result == WLK_SUCCESS);
+    if (medium.id != 0) {
+      EXPECT_EQ(wlkDestroyMedium(c, medium), WLK_SUCCESS);
+    }
+    return result;
+  });
+  WlkVolumeField field{};
+  field.medium = victim.medium;
+  auto volume = make<WlkVolumeInfo>();
+  volume.fieldCount = 1;
+  volume.fields = &field;
+  abuseHeader<WlkVolumeInfo>(volume, [&](const WlkVolumeInfo* p) {
+    WlkVolume made{};
+    const WlkResult result = wlkCreateVolume(c, p, &made);
+    EXPECT_EQ(made.id != 0, result == WLK_SUCCESS);
+    if (made.id != 0) {
+      EXPECT_EQ(wlkDestroyVolume(c, made), WLK_SUCCESS);
+    }
+    return result;
+  });
+  abuseHeader<WlkViewInfo>(make<WlkViewInfo>(), [&](const WlkViewInfo* p) {
+    WlkView made{};
+    const WlkResult result = wlkCreateView(c, p, &made);
+    EXPECT_EQ(made.id != 0, result == WLK_SUCCESS);
+    if (made.id != 0) {
+      EXPECT_EQ(wlkDestroyView(c, made), WLK_SUCCESS);
+    }
+    return result;
+  });
+  // Creating a volume asks for wlkPrepare, whether the volume lives on or not.
+  ASSERT_EQ(wlkPrepare(c), WLK_SUCCESS);
+  victim.expectUnchanged();
+}
+
+TEST(StructHeader, OfViewAndFrameStructuresIsCheckedBeforeAnythingChanges) {
+  VictimScene& victim = VictimScene::get();
+  const WlkContext c = victim.scene.context;
+  const WlkView view = victim.scene.view;
+  auto camera = make<WlkCamera>();
+  camera.preExposure = 3.0f;
+  abuseHeader<WlkCamera>(camera, [&](const WlkCamera* p) { return wlkSetCamera(c, view, p); });
+  const auto quality = make<WlkQuality>();
+  auto info = make<WlkViewInfo>();
+  info.width = info.height = 8;
+  abuseHeader<WlkViewInfo>(info, [&](const WlkViewInfo* p) { return wlkUpdateView(c, view, p); });
+  abuseHeader<WlkQuality>(quality, [&](const WlkQuality* p) { return wlkSetQuality(c, view, p); });
+  std::vector<float> pixels(16 * 12 * 4);
+  auto image = make<WlkImageData>();
+  image.data = pixels.data();
+  image.dataSize = pixels.size() * sizeof(float);
+  abuseHeader<WlkImageData>(image, [&](const WlkImageData* p) { return wlkReadback(c, view, p); });
+  info.width = 16;
+  info.height = 12;
+  ASSERT_EQ(wlkUpdateView(c, view, &info), WLK_SUCCESS);
+  victim.scene.setQuality(WLK_QUALITY_LOW);
+  victim.restore();
+  ASSERT_EQ(wlkPrepare(c), WLK_SUCCESS);
+  victim.expectUnchanged();
+  abuseHeader<WlkHeadlessTargets>(make<WlkHeadlessTargets>(), [&](const WlkHeadlessTargets* p) {
+    return wlkRenderHeadless(c, view, p);
+  });
+  victim.expectUnchanged();
+}
+
+TEST(StructHeader, OfUploadsAndRaysIsChecked) {
+  VictimScene& victim = VictimScene::get();
+  const WlkContext c = victim.scene.context;
+  const std::vector<float> values(64, 0.5f);
+  auto upload = make<WlkVolumeUpload>();
+  upload.extent[0] = upload.extent[1] = upload.extent[2] = 4;
+  upload.data = values.data();
+  upload.dataSize = values.size() * sizeof(float);
+  abuseHeader<WlkVolumeUpload>(
+      upload, [&](const WlkVolumeUpload* p) { return wlkUploadVolume(c, victim.volume, p); });
+  auto rays = make<WlkRayBatch>();
+  abuseHeader<WlkRayBatch>(
+      rays, [&](const WlkRayBatch* p) { return wlkEvalSky(c, p, nullptr, nullptr); });
+  abuseHeader<WlkMediumInfo>(make<WlkMediumInfo>(), [&](const WlkMediumInfo* p) {
+    return wlkEvalPhase(p, 0, nullptr, nullptr);
+  });
+  victim.expectUnchanged();
+}
+
+TEST(StructHeader, OfContextStructuresIsCheckedAndNoContextComesBack) {
+  const auto create = [](const WlkContextInfo* p) {
+    // A value that only a successful call or a failing call that resets it can change.
+    auto* context = reinterpret_cast<WlkContext>(uintptr_t{16});
+    const WlkResult result = wlkCreateContext(p, &context);
+    EXPECT_EQ(context == nullptr, result != WLK_SUCCESS);
+    if (result == WLK_SUCCESS) {
+      wlkDestroyContext(context);
+    }
+    return result;
+  };
+  abuseHeader<WlkContextInfo>(make<WlkContextInfo>(), create);
+  EXPECT_FAILS(create(nullptr), WLK_ERROR_INVALID_ARGUMENT, "WlkContextInfo");
+  const auto info = make<WlkContextInfo>();
+  EXPECT_FAILS(wlkCreateContext(&info, nullptr), WLK_ERROR_INVALID_ARGUMENT, "context");
+
+  // Chained structures have headers of their own; the chain may be circular.
+  auto headless = make<WlkHeadlessInfo>();
+  auto chained = make<WlkContextInfo>();
+  chained.next = &headless;
+  headless.next = &headless;
+  EXPECT_FAILS(create(&chained), WLK_ERROR_UNKNOWN_STRUCT, "next");
+  headless = make<WlkHeadlessInfo>();
+  headless.structSize = 8;
+  EXPECT_FAILS(create(&chained), WLK_ERROR_INVALID_ARGUMENT, "structSize");
+  headless = make<WlkHeadlessInfo>();
+  auto device = make<WlkVulkanDeviceInfo>();
+  headless.next = &device;
+  EXPECT_FAILS(create(&chained), WLK_ERROR_INVALID_ARGUMENT, "next");
+}
+
+TEST(StructHeader, OfOutputStructuresIsCheckedAndOnlyKnownBytesAreWritten) {
+  VictimScene& victim = VictimScene::get();
+  const WlkContext c = victim.scene.context;
+  victim.expectUnchanged();  // a frame, so that statistics exist
+  abuseOutput<WlkCapabilities>([&](WlkCapabilities* p) { return wlkGetCapabilities(c, p); },
+                               "WlkCapabilities");
+  abuseOutput<WlkFrameStats>(
+      [&](WlkFrameStats* p) {
+        uint32_t count = 0;
+        return wlkGetFrameStats(c, victim.scene.view, p, &count, nullptr);
+      },
+      "WlkFrameStats");
+  abuseOutput<WlkErrorInfo>([](WlkErrorInfo* p) { return wlkGetLastError(p); }, "WlkErrorInfo");
+  abuseOutput<WlkVulkanRequirements>(
+      [](WlkVulkanRequirements* p) { return wlkVulkanGetRequirements(p); },
+      "WlkVulkanRequirements");
+}
+
+TEST(StructHeader, InitStructWritesDefaultsWithinTheSizeItIsGiven) {
+  std::array<unsigned char, 512> bytes{};
+  EXPECT_FAILS(wlkInitStruct(WLK_STRUCT_SKY, sizeof(WlkSky), nullptr), WLK_ERROR_INVALID_ARGUMENT,
+               "structure");
+  for (const uint32_t unknown : {0u, 5u, 51u, 1004u, 0xffffffffu}) {
+    EXPECT_FAILS(wlkInitStruct(unknown, 64, bytes.data()), WLK_ERROR_UNKNOWN_STRUCT, "sType");
+  }
+  EXPECT_FAILS(wlkInitStruct(WLK_STRUCT_SKY, sizeof(WlkSky) - 1, bytes.data()),
+               WLK_ERROR_INVALID_ARGUMENT, "structSize");
+  for (const unsigned char byte : bytes) {
+    EXPECT_EQ(byte, 0) << "a failing wlkInitStruct wrote";
+  }
+  bytes.fill(0xee);
+  ASSERT_EQ(wlkInitStruct(WLK_STRUCT_SKY, sizeof(WlkSky) + 8, bytes.data()), WLK_SUCCESS);
+  for (size_t i = sizeof(WlkSky); i < bytes.size(); ++i) {
+    EXPECT_EQ(bytes[i], i < sizeof(WlkSky) + 8 ? 0 : 0xee) << i;
+  }
+}
+
+}  // namespace
+}  // namespace welkin::test
