@@ -147,11 +147,13 @@ Illumination sampleIllumination(WlkContext context, const Scene& scene, double l
   // Midpoints in sin^2 of the elevation weigh every ray the same: E = pi * mean radiance.
   std::vector<WlkRay> rays;
   const Vec3 from = atAltitude(0.5 * (light.lowest + light.highest));
-  for (uint32_t i = 0; i < RINGS * SPOKES; ++i) {
-    const double elevation = std::asin(std::sqrt((i / SPOKES + 0.5) / RINGS));
-    const Vec3 d =
-        directionFromAngles(elevation / RADIANS_PER_DEGREE, (i % SPOKES + 0.5) * 360.0 / SPOKES);
-    rays.push_back({{from.x, from.y, from.z}, {d.x, d.y, d.z}, INFINITY});
+  for (uint32_t ring = 0; ring < RINGS; ++ring) {
+    const double elevation = std::asin(std::sqrt((ring + 0.5) / RINGS));
+    for (uint32_t spoke = 0; spoke < SPOKES; ++spoke) {
+      const Vec3 d =
+          directionFromAngles(elevation / RADIANS_PER_DEGREE, (spoke + 0.5) * 360.0 / SPOKES);
+      rays.push_back({{from.x, from.y, from.z}, {d.x, d.y, d.z}, INFINITY});
+    }
   }
   auto batch = make<WlkRayBatch>();
   batch.count = static_cast<uint32_t>(rays.size());

@@ -66,15 +66,15 @@ static void addCloud(WlkContext context) {
   mediumInfo.dropletDiameter_um = 20.0f;
   check(wlkCreateMedium(context, &mediumInfo, &medium));
 
-  WlkVolumeField field = {medium, 0.02f, 0};
+  WlkVolumeField field = {medium, 0.01f, 0};
   WlkVolumeInfo volumeInfo;
   WlkVolume volume;
   INIT(WLK_STRUCT_VOLUME_INFO, volumeInfo);
   volumeInfo.size[0] = volumeInfo.size[1] = volumeInfo.size[2] = VOXELS;
   volumeInfo.fieldCount = 1;
   volumeInfo.fields = &field;
-  /* 1 km wide, 400 m above the sea, its near side 3 km in front of the eye. */
-  const double box[12] = {1000, 0, 0, -500, 0, 1000, 0, 400, 0, 0, 1000, -4000};
+  /* 2 km wide and 1 km high, 150 m above the sea, its near side 2 km in front of the eye. */
+  const double box[12] = {2000, 0, 0, -1000, 0, 1000, 0, 150, 0, 0, 2000, -4000};
   memcpy(volumeInfo.worldFromVolume, box, sizeof box);
   check(wlkCreateVolume(context, &volumeInfo, &volume));
 
@@ -106,7 +106,7 @@ static void setScene(WlkContext context) {
   INIT(WLK_STRUCT_SKY, sky);
   check(wlkSetSky(context, &sky));
   INIT(WLK_STRUCT_LIGHT, sun);
-  const float direction[3] = {-0.64f, 0.6f, 0.48f}; /* high, behind the left shoulder */
+  const float direction[3] = {-0.64f, 0.48f, -0.6f}; /* to the left, just outside the picture */
   memcpy(sun.direction, direction, sizeof direction);
   sun.irradiance[0] = sun.irradiance[1] = sun.irradiance[2] = 10.0f;
   check(wlkSetLights(context, 1, sizeof sun, &sun));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "gpu.hpp"
 
-#include <welkin/welkin.hpp>
 #include <welkin/welkin_vulkan.h>
 
 #include <cstdio>
 #include <stdexcept>
 #include <string>
+#include <welkin/welkin.hpp>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -131,6 +131,8 @@ void Gpu::createDevice() {
   features.features.shaderStorageImageWriteWithoutFormat =
       needs.shaderStorageImageWriteWithoutFormat;
   features.features.dualSrcBlend = needs.dualSrcBlend;
+  // WLK_COMPOSITE_BLEND counts non-finite pixels in its fragment shader.
+  features.features.fragmentStoresAndAtomics = VK_TRUE;
   const float priority = 1.0f;
   VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
   queue.queueFamilyIndex = family_;

@@ -6,8 +6,8 @@
 
 namespace {
 
-constexpr uint32_t TERRAIN_EDGE = 257;     // vertices
-constexpr double TERRAIN_SIZE = 40000.0;   // m
+constexpr uint32_t TERRAIN_EDGE = 257;    // vertices
+constexpr double TERRAIN_SIZE = 40000.0;  // m
 
 // Altitude of the ground, m: a flat valley around the origin, hills up to 900 m around it.
 double groundHeight(double x, double z) {
@@ -40,8 +40,8 @@ void addTerrain(Mesh& mesh) {
       const double stone = glm::smoothstep(300.0, 700.0, height);
       const glm::dvec3 albedo =
           glm::mix(glm::dvec3(0.07, 0.11, 0.04), glm::dvec3(0.22, 0.20, 0.18), stone);
-      mesh.vertices.push_back({glm::vec3(x, height, z), glm::vec3(glm::normalize(normal)),
-                               glm::vec3(albedo)});
+      mesh.vertices.push_back(
+          {glm::vec3(x, height, z), glm::vec3(glm::normalize(normal)), glm::vec3(albedo)});
       if (i + 1 < TERRAIN_EDGE && j + 1 < TERRAIN_EDGE) {
         const uint32_t a = first + j * TERRAIN_EDGE + i;
         const uint32_t b = a + TERRAIN_EDGE;
@@ -79,7 +79,7 @@ Mesh makeWorld() {
   for (int i = 0; i < 7; ++i) {
     const double distance = 60.0 * std::pow(2.0, i);
     const double radius = 0.12 * distance;
-    const double x = (i % 2 == 0 ? -0.35 : 0.3) * distance;
+    const double x = (0.14 * ((3 * i) % 7) - 0.42) * distance;  // side by side in the picture
     addSphere(mesh, {x, groundHeight(x, -distance) + radius, -distance}, radius,
               glm::vec3(0.6f, 0.6f - 0.07f * static_cast<float>(i), 0.2f));
   }

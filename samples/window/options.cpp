@@ -33,9 +33,10 @@ Options parseOptions(int count, char** arguments) {
                                                   {"high", WLK_QUALITY_HIGH},
                                                   {"ultra", WLK_QUALITY_ULTRA}};
   std::string size;
-  CLI::App app{"A small Vulkan engine that shows Welkin's atmosphere.\n"
-               "W A S D Q E move (shift: faster), drag turns, left and right change the time of "
-               "day, escape quits."};
+  CLI::App app{
+      "A small Vulkan engine that shows Welkin's atmosphere.\n"
+      "W A S D Q E move (shift: faster), drag turns, left and right change the time of "
+      "day, escape quits."};
   app.add_option("--size", size, "Pixels of the window, WIDTHxHEIGHT")
       ->check([&](const std::string& text) { return readSize(text, options); });
   auto* frames = app.add_option("--frames", options.frames, "Frames to show, then quit")

@@ -10,7 +10,7 @@ struct Options {
   uint32_t height = 720;
   uint64_t frames = 0;  // 0: until the window is closed
   uint32_t composite = WLK_COMPOSITE_COMPUTE;
-  uint32_t quality = WLK_QUALITY_LOW;
+  uint32_t quality = WLK_QUALITY_MEDIUM;
   double hour = 9.0;  // local solar time
   std::string screenshot;
   bool validate = false;

@@ -36,10 +36,10 @@ Swapchain::Swapchain(const Gpu& gpu, VkExtent2D wanted) : gpu_(gpu) {
   format_ = format.format;
   extent_ = surface.currentExtent;
   if (extent_.width == UINT32_MAX) {  // the swapchain decides
-    extent_.width = std::clamp(wanted.width, surface.minImageExtent.width,
-                               surface.maxImageExtent.width);
-    extent_.height = std::clamp(wanted.height, surface.minImageExtent.height,
-                                surface.maxImageExtent.height);
+    extent_.width =
+        std::clamp(wanted.width, surface.minImageExtent.width, surface.maxImageExtent.width);
+    extent_.height =
+        std::clamp(wanted.height, surface.minImageExtent.height, surface.maxImageExtent.height);
   }
   VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
   info.surface = gpu.surface();
@@ -74,8 +74,7 @@ Swapchain::Swapchain(const Gpu& gpu, VkExtent2D wanted) : gpu_(gpu) {
     view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
     check(vkCreateImageView(gpu.device(), &view, nullptr, &views_[i]), "vkCreateImageView");
     const VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
-    check(vkCreateSemaphore(gpu.device(), &semaphore, nullptr, &rendered_[i]),
-          "vkCreateSemaphore");
+    check(vkCreateSemaphore(gpu.device(), &semaphore, nullptr, &rendered_[i]), "vkCreateSemaphore");
   }
 }
 
@@ -91,8 +90,8 @@ Swapchain::~Swapchain() {
 
 std::optional<uint32_t> Swapchain::acquire(VkSemaphore ready) const {
   uint32_t index = 0;
-  const VkResult result = vkAcquireNextImageKHR(gpu_.device(), swapchain_, UINT64_MAX, ready,
-                                                VK_NULL_HANDLE, &index);
+  const VkResult result =
+      vkAcquireNextImageKHR(gpu_.device(), swapchain_, UINT64_MAX, ready, VK_NULL_HANDLE, &index);
   if (result == VK_ERROR_OUT_OF_DATE_KHR) {
     return std::nullopt;
   }

@@ -10,11 +10,11 @@
 
 namespace {
 
-constexpr double SPEED = 60.0;             // m/s
-constexpr double FAST = 20.0;              // with shift
+constexpr double SPEED = 60.0;  // m/s
+constexpr double FAST = 20.0;   // with shift
 constexpr double RADIANS_PER_PIXEL = 0.004;
 constexpr double HOURS_PER_SECOND = 1.0;
-constexpr double STEEPEST = 1.55;          // rad: short of straight up, where yaw loses meaning
+constexpr double STEEPEST = 1.55;  // rad: short of straight up, where yaw loses meaning
 
 }  // namespace
 

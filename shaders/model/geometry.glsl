@@ -49,11 +49,15 @@ real horizonMu(real altitude, real radius) {
 // Distance from outside to the sea-level sphere, -1 if the ray misses it; below sea level the
 // origin counts as on it. The discriminant is r^2 (mu_h - mu)(-mu_h - mu): hit and miss are told
 // apart by the horizon's cosine, which at eye height the usual discriminant gets wrong for 2 % of
-// the rays near the horizon (Haines et al., Ray Tracing Gems ch. 7).
+// the rays near the horizon (Haines et al., Ray Tracing Gems ch. 7). From far away, where mu_h is
+// close to -1, the discriminant is R^2 - r^2 (1 - mu^2) instead.
 real groundDistance(real altitude, real mu, real radius) {
   real h = max(altitude, real(0.0f));
   real muHorizon = horizonMu(h, radius);
-  real root = sqrt(max((muHorizon - mu) * (-muHorizon - mu), real(0.0f)));
+  real shrink = radius / (radius + h);
+  real nearBy = (muHorizon - mu) * (-muHorizon - mu);
+  real farOff = shrink * shrink - (real(1.0f) - mu) * (real(1.0f) + mu);
+  real root = sqrt(max(h < radius ? nearBy : farOff, real(0.0f)));
   real t = altitudePower(h, radius) / ((radius + h) * (root - min(mu, -DIRECTION_FLOOR)));
   return mu < muHorizon ? t : real(-1.0f);
 }

@@ -3,6 +3,7 @@
 
 #include <welkin/welkin_vulkan.h>
 
+#include <atomic>
 #include <cstring>
 #include <utility>
 
@@ -27,6 +28,10 @@ ContextChain readChain(const void* next) {
     } else if (header.sType == WLK_STRUCT_HEADLESS_INFO && chain.headless == nullptr) {
       checkHeader(next, header.sType, sizeof(WlkHeadlessInfo));
       chain.headless = static_cast<const WlkHeadlessInfo*>(next);
+      if ((chain.headless->flags & ~uint64_t{WLK_HEADLESS_VALIDATION}) != 0) {
+        fail(WLK_ERROR_INVALID_ARGUMENT, header.sType, "flags",
+             "WlkHeadlessInfo::flags has unknown bits");
+      }
     } else {
       fail(WLK_ERROR_UNKNOWN_STRUCT, WLK_STRUCT_CONTEXT_INFO, "next",
            "WlkContextInfo's chain holds an unknown or repeated structure (sType %u)",
@@ -68,6 +73,13 @@ vk::DeviceInfo deviceInfoOf(const WlkVulkanDeviceInfo& info) {
   return result;
 }
 
+// A number for a pool's handles that none of the last 65535 pools of the process had: a handle of
+// another kind, or of a destroyed context whose address was handed out again, is never found.
+uint16_t nextTag() {
+  static std::atomic<uint16_t> last{0x574c};
+  return last.fetch_add(1, std::memory_order_relaxed);
+}
+
 vk::Image makeDummy(vk::Device& device, VkImageType type) {
   vk::ImageInfo info;
   info.type = type;
@@ -83,9 +95,9 @@ WlkContext_T::WlkContext_T(const WlkContextInfo& contextInfo)
       log(contextInfo.log),
       logUser(contextInfo.logUser),
       memory(contextInfo.allocator),
-      media(&memory, tag()),
-      volumes(&memory, tag()),
-      views(&memory, tag()),
+      media(&memory, nextTag()),
+      volumes(&memory, nextTag()),
+      views(&memory, nextTag()),
       pending(&memory),
       retired(&memory),
       imported(&memory),
@@ -128,12 +140,6 @@ WlkContext_T::~WlkContext_T() {
   for (const ImportedView& view : imported) {
     device->vk().DestroyImageView(device->handle(), view.view, nullptr);
   }
-}
-
-uint16_t WlkContext_T::tag() const {
-  // Fibonacci hash of the address: contexts alive at the same time get different tags, nearly
-  // always.
-  return static_cast<uint16_t>(reinterpret_cast<uint64_t>(this) * 0x9e3779b97f4a7c15u >> 48);
 }
 
 vk::Device& WlkContext_T::requireDevice(const char* what) {

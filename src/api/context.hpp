@@ -72,7 +72,6 @@ struct WlkContext_T {
   welkin::vk::Image dummy2d;
   welkin::vk::Image dummy3d;
 
-  uint16_t tag() const;
   bool fogActive() const { return air.fog && air.fog->extinction > 0; }
   welkin::vk::Device& requireDevice(const char* what);
   welkin::MediumState& medium(WlkMedium handle);

@@ -149,6 +149,7 @@ void renderHeadless(WlkContext_T& c, ViewState& view, const WlkHeadlessTargets& 
   dependency.pMemoryBarriers = &toHost;
   vk.CmdPipelineBarrier2(commands, &dependency);
   c.headless->submitAndWait();
+  r.rendered = true;
   c.completedFrame = c.frameIndex;
   c.collect();
 }
@@ -384,7 +385,7 @@ WlkResult wlkReadback(WlkContext context, WlkView view, const WlkImageData* imag
            "WlkImageData::image is %u, which the view's composite mode does not write",
            value.image);
     }
-    if (state.lastFrame == 0 || !state.prepared) {
+    if (!state.resources.rendered || !state.prepared) {
       return WLK_NOT_READY;
     }
     const uint64_t offset = value.image == WLK_IMAGE_TRANSMITTANCE ? bytes : 0;

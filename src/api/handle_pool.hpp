@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Objects behind by-value handles: index + 1 in bits 0-23, generation in 24-47, the context's tag
-// in 48-63. A handle that is null, stale or of another context is not found.
+// Objects behind by-value handles: index + 1 in bits 0-23, generation in 24-47, the pool's tag in
+// 48-63. A handle that is null, stale or of another pool or context is not found.
 #pragma once
 
 #include <cstdint>

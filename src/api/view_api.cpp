@@ -85,7 +85,8 @@ CameraMatrices checkedCamera(const WlkCamera& camera) {
   }
   const glm::dmat4 inverse = glm::inverse(projection);
   for (int i = 0; i < 16; ++i) {
-    if (!std::isfinite(inverse[i / 4][i % 4])) {
+    // The inverse becomes float on the GPU, where squares of its elements must stay finite.
+    if (!(std::abs(inverse[i / 4][i % 4]) <= 1e18)) {
       fail(WLK_ERROR_INVALID_ARGUMENT, camera.sType, "clipFromView",
            "WlkCamera::clipFromView is singular");
     }

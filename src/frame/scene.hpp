@@ -112,6 +112,7 @@ struct ViewResources {
   uint32_t volumeCapacity = 0;
   uint32_t queryCount = 0;
   // Headless only.
+  bool rendered = false;  // `readback` holds a picture
   vk::Image depth;
   vk::Image color;
   vk::Image target0;

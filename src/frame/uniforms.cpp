@@ -43,6 +43,7 @@ void fillFrame(const AirState& air, const ViewState& view, interface_::FrameUnif
   out.fog.w = air.planet.radius;
   out.fog.z = 1.0f;
   out.air.w = 1.0f;
+  out.lightDisk.w = 1e-30f;  // no disk: keeps y / edge from 0 / 0 for a view into the light
   if (air.light) {
     const glm::dvec3 to = glm::normalize(
         glm::dvec3(air.light->direction[0], air.light->direction[1], air.light->direction[2]));
@@ -54,8 +55,8 @@ void fillFrame(const AirState& air, const ViewState& view, interface_::FrameUnif
     const double half = std::sin(0.5 * radius);
     // Radiance of a uniform disk: E / (pi sin^2 r); the rim's 1 - cos r = 2 sin^2(r / 2). The soft
     // rim (diskCoverage: a smoothstep over the last 8 % of the area) keeps 0.96 of the area.
-    out.lightDisk = {0.0f, 0.0f, 0.0f, 1.0e-12f};  // no disk: a rim that covers nothing
-    if (sine > 0) {
+    // A disk under 0.2 arc seconds covers no pixel, and its radiance would overflow a float.
+    if (sine > 1e-6) {
       const double solidAngle = std::numbers::pi * sine * sine * 0.96;
       out.lightDisk = glm::vec4(vec(air.light->irradiance) / static_cast<float>(solidAngle),
                                 static_cast<float>(2.0 * half * half));

@@ -15,14 +15,15 @@ using namespace image_test;
 constexpr double ROUNDING = 1e-12;  // of sums over a few hundred pieces in double
 
 TEST(RayMarch, IsExactInAHomogeneousBox) {
-  const VoxelField box = cubeField(3, std::vector<float>(27, 1.0f), 0.01, 100, {0, 0, -200});
+  const VoxelField box = cubeField(3, std::vector<float>(27, 1.0f), 0.0078125, 128, {0, 0, -200});
   const RayMarch march(box);
   EXPECT_NEAR(march.opticalDepth({0, 0, 0}, {0, 0, -1}), 1.0, ROUNDING);
-  EXPECT_NEAR(march.opticalDepth({0, 0, 0}, {0, 0, -1}, 175.0), 0.25, ROUNDING);
+  EXPECT_NEAR(march.opticalDepth({0, 0, 0}, {0, 0, -1}, 168.0), 0.25, ROUNDING);
   EXPECT_EQ(march.opticalDepth({0, 60, 0}, {0, 0, -1}), 0.0);
   // Lit along the view from behind: every path has depth 1 in all. From in front: 1 - e^-2 over 2.
-  // Three Gauss points on pieces of depth 1/4: (1/4)^7 / 2e6 each.
-  const double quadrature = std::pow(0.25, 7) / 2e6 * 100;
+  // Three Gauss points on 4 pieces of depth x = 1/4 have the
+  // error x^7 f(6) / 2016000, f(6) <= 64 for f = e^-2x (6 derivatives, the factor 2 each).
+  const double quadrature = 4 * std::pow(0.25, 7) * 64 / 2016000;
   EXPECT_NEAR(march.march({0, 0, 0}, {0, 0, -1}, 1e30, {0, 0, -1}).scattered, std::exp(-1.0),
               quadrature);
   EXPECT_NEAR(march.march({0, 0, 0}, {0, 0, -1}, 1e30, {0, 0, 1}).scattered,
@@ -53,7 +54,7 @@ TEST(RayMarch, ConvergesInItsEyeIntegral) {
     const double difference = relativeRms(picture(1), fine);
     std::printf("reference, %s field: refinement 1 against 4: relative RMS %.1e\n",
                 steep ? "steep" : "noise", difference);
-    EXPECT_LT(difference, 2e-5);
+    EXPECT_LT(difference, 5e-5);
   }
 }
 

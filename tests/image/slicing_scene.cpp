@@ -181,7 +181,8 @@ VoxelField cubeField(int n, const std::vector<float>& values, double scale, doub
   field.size = {n, n, n};
   for (const float v : values) {
     // Rounded as the upload rounds, so that both sides march the same numbers.
-    field.extinction.push_back(static_cast<double>(static_cast<float>(scale * static_cast<double>(v))));
+    field.extinction.push_back(
+        static_cast<double>(static_cast<float>(scale * static_cast<double>(v))));
   }
   field.worldFromBox = {};
   for (size_t k = 0; k < 3; ++k) {

@@ -58,7 +58,7 @@ struct Picture {
   std::vector<std::array<double, 3>> radiance;
   std::vector<std::array<double, 3>> transmittance;
   uint64_t nonFinite = 0;
-  double eye_ms = 0;    // GPU time of the passes
+  double eye_ms = 0;  // GPU time of the passes
   double light_ms = 0;
 
   std::vector<double> red() const;

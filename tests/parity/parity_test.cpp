@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 
@@ -98,8 +99,8 @@ TEST_P(Parity, DeviceMatchesDouble) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Model, Parity, testing::Range(0, CASE_COUNT),
-                         [](const testing::TestParamInfo<int>& info) {
-                           return std::string(caseName(info.param));
+                         [](const testing::TestParamInfo<int>& which) {
+                           return std::string(caseName(which.param));
                          });
 
 }  // namespace

@@ -76,7 +76,7 @@ constexpr int NOISE_CLOUD_SIZE = 64;
 inline std::vector<float> noiseCloud() {
   return sampleBox(NOISE_CLOUD_SIZE, [](double x, double y, double z) {
     const double fall = std::clamp((0.5 - ballDistance(x, y, z)) / 0.2, 0.0, 1.0);
-    return 2.6 * fall * (fractalNoise(x, y, z, 5, 3) - 0.28);
+    return 5.0 * fall * (fractalNoise(x, y, z, 5, 4) - 0.36);
   });
 }
 

@@ -18,12 +18,18 @@ long double depthTo(const FlatRay& ray, long double t) {
   return rate == 0.0L ? ray.extinction * t : -ray.extinction * std::expm1(-rate * t) / rate;
 }
 
-// ln of the integrand of [R04] Eq. 14 over beta.
+// ln of the integrand of [R04] Eq. 14 over beta. One exponential: e^x from expm1(x) or the reverse,
+// whichever does not cancel.
 long double logIntegrand(const FlatRay& ray, long double t) {
-  const long double fall = ray.inverseScaleHeight * ray.viewSlope * t;
-  const long double light =
-      ray.extinction * std::exp(-fall) / (ray.inverseScaleHeight * ray.lightSlope);
-  return -fall - depthTo(ray, t) - light;
+  const long double rate = ray.inverseScaleHeight * ray.viewSlope;
+  const long double fall = rate * t;
+  const bool small = std::fabs(fall) < 1.0L;
+  const long double e = small ? std::expm1(-fall) : std::exp(-fall);
+  const long double density = small ? 1.0L + e : e;
+  const long double less = small ? -e : 1.0L - e;
+  const long double depth = rate == 0.0L ? ray.extinction * t : ray.extinction * less / rate;
+  const long double light = ray.extinction * density / (ray.inverseScaleHeight * ray.lightSlope);
+  return -fall - depth - light;
 }
 
 // The stretch on which the integrand can matter: 80 scale heights, 80 lengths of total extinction.

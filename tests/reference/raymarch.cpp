@@ -87,8 +87,7 @@ void eachPiece(const L& line, const std::array<int, 3>& size, Visit visit) {
 RayMarch::RayMarch(const VoxelField& field)
     : field_(field), boxFromWorld_(inverted(field.worldFromBox)) {}
 
-RayMarch::Line RayMarch::lineOf(const Point& origin, const Point& direction,
-                                double length) const {
+RayMarch::Line RayMarch::lineOf(const Point& origin, const Point& direction, double length) const {
   Line line{};
   line.begin = 0;
   line.end = length;
@@ -173,8 +172,7 @@ void RayMarch::nodes(const Point& origin, const Point& direction, double length,
         for (size_t k = 0; k < 3; ++k) {
           p[k] = origin[k] + t * direction[k];
         }
-        out.push_back(
-            {t, beta * std::exp(-before) * weight[g] * dt, opticalDepth(p, toLight)});
+        out.push_back({t, beta * std::exp(-before) * weight[g] * dt, opticalDepth(p, toLight)});
       }
       depth += simpson(start, start + dt);
     }

@@ -15,8 +15,8 @@ namespace welkin::reference {
 using Point = std::array<double, 3>;
 
 struct VoxelField {
-  std::array<int, 3> size;            // voxels along x, y, z
-  std::vector<double> extinction;     // 1/m, x fastest
+  std::array<int, 3> size;              // voxels along x, y, z
+  std::vector<double> extinction;       // 1/m, x fastest
   std::array<double, 12> worldFromBox;  // row-major 3x4, unit box to the world in m
 };
 
@@ -41,7 +41,7 @@ class RayMarch {
   double opticalDepth(const Point& origin, const Point& direction, double length = 1e30) const;
 
   // The eye integral's nodes: 3 Gauss points on every piece of at most 1 / (4 refinement) optical
-  // depth. Against refinement 4, refinement 1 differs by less than 2e-5 of the image's mean on the
+  // depth. Against refinement 4, refinement 1 differs by less than 5e-5 of the image's mean on the
   // fields of noise_volume.hpp (RayMarch.ConvergesInItsEyeIntegral).
   void nodes(const Point& origin, const Point& direction, double length, const Point& toLight,
              int refinement, std::vector<MarchNode>& out) const;

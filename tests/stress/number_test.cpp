@@ -64,6 +64,7 @@ void abuseNumbers(const T& other, const std::vector<NumberField>& fields,
           ASSERT_EQ(wlkRenderHeadless(victim.scene.context, victim.scene.view, nullptr),
                     WLK_SUCCESS);
           EXPECT_EQ(victim.scene.read(WLK_IMAGE_COLOR).badValues(), 0u);
+          EXPECT_EQ(victim.scene.stats().nonFinitePixels, 0u);
           victim.restore();
           continue;
         }

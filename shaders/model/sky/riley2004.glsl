@@ -31,6 +31,7 @@ struct AirResult {
 // numbers, e^30 times any extinction is opaque.
 const real LAYER_VACUUM = real(-60.0f);
 const real LAYER_SOLID = real(30.0f);
+const real VACUUM_DENSITY = real(1e-27);
 // Scale heights above the base after which a layer counts as ended: e^-30 of 1e6 optical depths.
 const real LAYER_EXTENT = real(30.0f);
 const real SQRT_PI_HALF = real(0.886226925452758);
@@ -76,31 +77,14 @@ real layerDensity(real exponent) {
 // Depth per unit extinction (m) from radius r towards a direction with cosine mu to the up: density
 // H sqrt(pi X/2) erfcx(sqrt(X/2) |mu|), X = r/H; for mu < 0 twice the lowest point's horizontal
 // value less the opposite direction. Within 0.2 % of the sphere's integral for X > 400.
-real layerColumn(real exponent, real scaleHeight, real radius, real mu) {
+real layerColumn(real exponent, real density, real scaleHeight, real radius, real mu) {
   real width = sqrt(real(2.0f) * radius * scaleHeight);
-  real up = layerDensity(exponent) * erfcxPositive(radius * abs(mu) / width);
+  real up = density * erfcxPositive(radius * abs(mu) / width);
   real sinus = sqrt(max((real(1.0f) - mu) * (real(1.0f) + mu), real(0.0f)));
   real drop = radius * mu * mu / (scaleHeight * (real(1.0f) + sinus));
   real down = real(2.0f) * sqrt(sinus) * layerDensity(exponent + drop) - up;
   // At the nadir the chord is no exponential column; keep it monotone and never negative.
   return SQRT_PI_HALF * width * (mu < real(0.0f) ? max(down, up) : up);
-}
-
-// Optical depth of air and fog from `altitude` to the light, RGB. Below the horizon it grows
-// smoothly up to opaque; lightVisibility says whether the planet is in the way.
-vec3 lightOpticalDepth(Air air, real altitude, real lightMu) {
-  vec3 depth = vec3(real(0.0f));
-  real radius = air.planetRadius + altitude;
-  if (AIR_ENABLED) {
-    real exponent = layerExponent(altitude, real(0.0f), air.airScaleHeight);
-    depth = air.airScattering * layerColumn(exponent, air.airScaleHeight, radius, lightMu);
-  }
-  if (FOG_ENABLED) {
-    real exponent = layerExponent(altitude, air.fogBaseAltitude, air.fogScaleHeight);
-    real column = layerColumn(exponent, air.fogScaleHeight, radius, lightMu);
-    depth = depth + vec3(air.fogExtinction * column);
-  }
-  return depth;
 }
 
 // Area fraction of a disk of half angle `angularRadius` above the geometric horizon, 0..1: within
@@ -139,14 +123,15 @@ AirPath clipToAir(Air air, AirRay ray, real distance) {
                                   real(0.0f)));
   bool above = h > top;
   bool reaches = !above || (ray.viewMu < real(0.0f) && lowest < topRadius);
+  bool enters = above && reaches;
   // Entry: (r^2 - rt^2) / (r |mu| + rt |mu_t|), from above only.
   real chord = sqrt(max((topRadius - lowest) * (topRadius + lowest), real(0.0f)));
   real span = (h - top) * (radius + topRadius);
-  real entry = above ? span / (max(radius * -ray.viewMu, real(0.0f)) + chord) : real(0.0f);
+  real entry = enters ? span / (chord - radius * ray.viewMu) : real(0.0f);
   AirPath path;
   path.altitude = above ? top : h;
-  path.viewMu = above ? -chord / topRadius : ray.viewMu;
-  path.sunMu = above ? (radius * ray.sunMu + entry * ray.viewSun) / topRadius : ray.sunMu;
+  path.viewMu = enters ? -chord / topRadius : ray.viewMu;
+  path.sunMu = enters ? (radius * ray.sunMu + entry * ray.viewSun) / topRadius : ray.sunMu;
   path.sunMu = clamp(path.sunMu, real(-1.0f), real(1.0f));
   path.viewSun = ray.viewSun;
   path.lowestRadius = lowest;
@@ -165,9 +150,8 @@ AirPath clipToAir(Air air, AirRay ray, real distance) {
 
 LayerPoint layerPoint(real altitude, real base, real scaleHeight, real radius, real fromLowest) {
   LayerPoint point;
-  real exponent = layerExponent(altitude, base, scaleHeight);
-  point.exponent = clamp(exponent, LAYER_VACUUM, LAYER_SOLID);
-  point.density = exp(point.exponent);
+  point.exponent = min(layerExponent(altitude, base, scaleHeight), LAYER_SOLID);
+  point.density = layerDensity(point.exponent);
   real width = sqrt(real(2.0f) * radius * scaleHeight);
   point.column = SQRT_PI_HALF * width * point.density * erfcxPositive(abs(fromLowest) / width);
   return point;
@@ -189,6 +173,38 @@ AirPoint airPoint(Air air, AirPath path, real t) {
   return point;
 }
 
+// Optical depth of air and fog from a point of a ray to the light, RGB.
+vec3 lightDepthAt(Air air, AirPoint point, real lightMu) {
+  vec3 depth = vec3(real(0.0f));
+  real radius = air.planetRadius + point.altitude;
+  if (AIR_ENABLED) {
+    depth = air.airScattering * layerColumn(point.air.exponent, point.air.density,
+                                            air.airScaleHeight, radius, lightMu);
+  }
+  if (FOG_ENABLED) {
+    real column = layerColumn(point.fog.exponent, point.fog.density, air.fogScaleHeight, radius,
+                              lightMu);
+    depth = depth + vec3(air.fogExtinction * column);
+  }
+  return depth;
+}
+
+// Optical depth from `altitude` to the light, RGB. Below the horizon it grows smoothly up to
+// opaque; lightVisibility says whether the planet is in the way.
+vec3 lightOpticalDepth(Air air, real altitude, real lightMu) {
+  AirPoint point;
+  point.altitude = altitude;
+  if (AIR_ENABLED) {
+    point.air.exponent = layerExponent(altitude, real(0.0f), air.airScaleHeight);
+    point.air.density = layerDensity(point.air.exponent);
+  }
+  if (FOG_ENABLED) {
+    point.fog.exponent = layerExponent(altitude, air.fogBaseAltitude, air.fogScaleHeight);
+    point.fog.density = layerDensity(point.fog.exponent);
+  }
+  return lightDepthAt(air, point, lightMu);
+}
+
 // Depth per unit extinction (m) between two points on the same side of the ray's lowest one, at
 // most `sag` m above the ray's chord. Nearly straight: logarithmic mean of the densities, all from
 // c = (b/2) coth(b/2), b the difference of exponents, times the curvature's series in g sag/H,
@@ -196,13 +212,13 @@ AirPoint airPoint(Air air, AirPath path, real t) {
 const real CURVATURE_2 = real(0.6);
 const real CURVATURE_3 = real(0.857);
 real layerDepth(LayerPoint a, LayerPoint b, real scaleHeight, real length, real sag) {
-  real rise = a.exponent - b.exponent;
+  real rise = abs(a.exponent - b.exponent);
   real z = rise * rise;
   real sum = a.density + b.density;
-  real slope = abs(rise) < real(0.5f)
-                   ? cothSeries(z)
-                   : (real(0.5f) * rise * sum / (a.density - b.density) - real(1.0f)) / z;
-  real g = real(8.0f) * slope;
+  real fall = max(abs(a.density - b.density), VACUUM_DENSITY);
+  real slope = rise < real(0.5f) ? cothSeries(z)
+                                 : (real(0.5f) * rise * sum / fall - real(1.0f)) / z;
+  real g = min(real(8.0f) * slope, real(1.0f));
   real s = sag / scaleHeight;
   real p = g * s;
   real p2 = (real(1.0f) - CURVATURE_2 * g) * p;
@@ -328,9 +344,9 @@ vec3 airOpticalDepth(Air air, AirRay ray, real distance) {
 }
 
 // Segments per ray: stops of each layer, the lowest point, two shadow edges and the end.
-const int AIR_STOPS = 4;
-const int FOG_STOPS = 4;
-const int MAX_SEGMENTS = 11;
+const int AIR_STOPS = 5;
+const int FOG_STOPS = 5;
+const int MAX_SEGMENTS = 12;
 // A fog layer with less optical depth than this around the ray gets no stops.
 const real FOG_MATTERS = real(1e-4);
 
@@ -356,7 +372,7 @@ AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, real fo
     fogRank = air.fogExtinction * dense * fogStops.width > FOG_MATTERS ? 1 : FOG_STOPS;
   }
   AirPoint here = airPoint(air, path, real(0.0f));
-  vec3 nearDepth = lightOpticalDepth(air, here.altitude, path.sunMu);
+  vec3 nearDepth = lightDepthAt(air, here, path.sunMu);
   vec3 nearLight = vec3(safeExp(-nearDepth.x), safeExp(-nearDepth.y), safeExp(-nearDepth.z));
   vec3 viewDepth = vec3(real(0.0f));
   AirResult result;
@@ -384,7 +400,7 @@ AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, real fo
     real farRadius = air.planetRadius + next.altitude;
     real farMu = (radius * path.sunMu + t * path.viewSun) / farRadius;
     farMu = clamp(farMu, real(-1.0f), real(1.0f));
-    vec3 farDepth = lightOpticalDepth(air, next.altitude, farMu) + viewDepth;
+    vec3 farDepth = lightDepthAt(air, next, farMu) + viewDepth;
     vec3 farLight = vec3(safeExp(-farDepth.x), safeExp(-farDepth.y), safeExp(-farDepth.z));
     vec3 rise = farDepth - nearDepth;
     vec3 mean;
