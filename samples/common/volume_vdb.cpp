@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // OpenVDB grids. The only file that sees OpenVDB's headers: they cost most of a compile minute.
-#include <openvdb/io/File.h>
+#include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>
 
+#include <fstream>
 #include <string>
 
 #include "common/error.hpp"
@@ -12,27 +13,33 @@
 namespace host {
 namespace {
 
+// Reads through a stream that throws at its end: io::File believes the counts of a cut-off or
+// corrupt file and loops over billions of grids that are not there.
+openvdb::GridPtrVecPtr readGrids(const std::string& file) {
+  openvdb::initialize();
+  std::ifstream stream(file, std::ios::binary);
+  stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
+  return openvdb::io::Stream(stream, false).getGrids();
+}
+
 // OpenVDB reports by its own exceptions, which derive from std::exception.
 openvdb::FloatGrid::Ptr readGrid(const std::string& file, const std::string& wanted) {
   try {
-    openvdb::initialize();
-    openvdb::io::File input(file);
-    input.open(false);  // no delayed loading: a cut-off file must fail here
     std::string names;
-    bool found = false;
-    for (auto name = input.beginName(); name != input.endName(); ++name) {
-      names += (names.empty() ? "" : ", ") + name.gridName();
-      found = found || name.gridName() == wanted;
+    const openvdb::GridPtrVecPtr grids = readGrids(file);
+    for (const openvdb::GridBase::Ptr& base : *grids) {
+      names += (names.empty() ? "" : ", ") + base->getName();
+      if (base->getName() != wanted) {
+        continue;
+      }
+      auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(base);
+      if (!grid) {
+        throw InputError(file, "grid '" + wanted + "'", "expected a grid of floats");
+      }
+      return grid;
     }
-    if (!found) {
-      throw InputError(file, "grid",
-                       "expected a grid named '" + wanted + "'; the file has: " + names);
-    }
-    auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(input.readGrid(wanted));
-    if (!grid) {
-      throw InputError(file, "grid '" + wanted + "'", "expected a grid of floats");
-    }
-    return grid;
+    throw InputError(file, "grid",
+                     "expected a grid named '" + wanted + "'; the file has: " + names);
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& e) {

@@ -14,7 +14,7 @@
 enum { WIDTH = 480, HEIGHT = 270, VOXELS = 64 };
 
 /* Fills a structure with its defaults. */
-#define INIT(sType, structure) check(wlkInitStruct(sType, sizeof structure, &structure))
+#define INIT(sType, structure) check(wlkInitStruct((sType), sizeof(structure), &(structure)))
 
 static void check(WlkResult result) {
   if (result < 0) {

@@ -44,22 +44,40 @@ void main() {
     state = imageLoad(lightBuffer, ivec3(texel, int(slice.slabCount))).xy;
   }
   imageStore(lightBuffer, ivec3(texel, 0), vec4(state, 0.0f, 0.0f));
+
+  // Stretch of the light ray inside the box, in slabs from the batch's first one. Slabs that it
+  // enters or leaves count with the part inside: a volume may be dense up to its faces.
+  Span inside = rayBox(base + float(slice.firstSlab) * volume.texelC.xyz, volume.texelC.xyz,
+                       vec3(0.0f), vec3(1.0f));
+  float batchEnd = float(slice.slabCount);
+  uint enter = uint(clamp(floor(inside.begin), 0.0f, batchEnd));
+  uint leave = uint(clamp(ceil(inside.end), 0.0f, batchEnd));
+  base += float(slice.firstSlab) * volume.texelC.xyz;
   uint k = 0u;
-  do {
-    float c = float(slice.firstSlab + k) + 0.5f;
-    vec4 extinction = fieldExtinction(base + c * volume.texelC.xyz);
-    float depth = extinction.x + extinction.y + extinction.z + extinction.w;
-    depth *= path;
+  while (k < enter) {
+    k += 1u;
+    imageStore(lightBuffer, ivec3(texel, int(k)), vec4(state, 0.0f, 0.0f));
+  }
+  while (k < leave) {
+    float c0 = max(float(k), inside.begin);
+    float c1 = max(min(float(k) + 1.0f, inside.end), c0);
+    vec4 extinction = fieldExtinction(base + 0.5f * (c0 + c1) * volume.texelC.xyz);
+    float stretch = path * (c1 - c0);
+    float depth = (extinction.x + extinction.y + extinction.z + extinction.w) * stretch;
     float back = 0.0f;
     if (FORWARD_SCATTERING) {
       // n at the middle of the slab: second order in the slab's depth. The albedo of a mixture is
       // weighted by extinction; phi of an empty slab is 0 without a division.
-      vec4 scattered = extinction * volume.meanAlbedo * path;
+      vec4 scattered = extinction * volume.meanAlbedo * stretch;
       float n = state.x + 0.5f * depth;
       back = dot(scattered, forwardFractions(n));
     }
     state += vec2(depth, back);
     k += 1u;
     imageStore(lightBuffer, ivec3(texel, int(k)), vec4(state, 0.0f, 0.0f));
-  } while (k < slice.slabCount);
+  }
+  while (k < slice.slabCount) {
+    k += 1u;
+    imageStore(lightBuffer, ivec3(texel, int(k)), vec4(state, 0.0f, 0.0f));
+  }
 }

@@ -146,9 +146,11 @@ WlkResult wlkEvalLight(WlkContext context, uint32_t lightIndex, const double pos
     const AirQuery q = queryOf(c.air);
     const PlanetFrame frame =
         planetFrameAt(c.air.planet, glm::dvec3(position[0], position[1], position[2]));
+    // As rays do: half way to the planet's centre all is opaque; at the centre nothing is defined.
+    const double altitude = std::max(frame.altitude, -0.5 * q.air.planetRadius);
     double depth[3];
     double visible = 0;
-    evalLightDepth(q.air, frame.altitude, glm::dot(q.toLight, frame.up), q.angularRadius, depth,
+    evalLightDepth(q.air, altitude, glm::dot(q.toLight, frame.up), q.angularRadius, depth,
                    &visible);
     for (int i = 0; i < 3; ++i) {
       irradiance[i] = q.irradiance[i] * std::exp(-depth[i]) * visible;

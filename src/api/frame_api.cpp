@@ -162,10 +162,10 @@ void recordUpdate(WlkContext_T& c, VkCommandBuffer commands) {
   const vk::Dispatch& vk = c.device->vk();
   c.bytesUploaded = 0;
   c.updateCopies = 0;
-  clearOnce(vk, commands, c.dummy2d);
-  clearOnce(vk, commands, c.dummy3d);
   // Room first: from the first command on nothing may throw.
   c.retired.reserve(c.retired.size() + c.pending.size() + c.volumes.count());
+  clearOnce(vk, commands, c.dummy2d);
+  clearOnce(vk, commands, c.dummy3d);
   for (uint32_t i = 0; i < c.volumes.slotCount(); ++i) {
     VolumeState* volume = c.volumes.at(i);
     if (volume != nullptr && volume->tableStaging) {

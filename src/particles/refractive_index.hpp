@@ -15,7 +15,7 @@ double waterDensity(double temperature_C);
 double waterIndexInVacuum(double wavelength_um, double temperature_C);
 
 // The same relative to air, whose index is AIR_INDEX for all wavelengths: dispersion in 0.38-0.75
-// um, 0-40 C and 0.8-1 atm move it by less than 7e-5, a rainbow by less than 0.01 degrees.
+// um, 0-40 C and 0.8-1 atm move it by less than 1e-4, a rainbow by less than 0.015 degrees.
 double waterIndex(double wavelength_um, double temperature_C);
 constexpr double AIR_INDEX = 1.000277;  // 15 C, 1 atm, 589 nm: Ciddor 1996, Appl. Opt. 35, 1566
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace welkin {
@@ -37,8 +38,7 @@ double sizeDensity(const SizeDistribution& sizes, double radius_um) {
   }
   if (sizes.kind == SizeKind::LogNormal) {
     const double t = std::log(z) / sizes.spread;
-    return std::exp(-t * t / 2) /
-           (radius_um * sizes.spread * std::sqrt(2 * std::numbers::pi));
+    return std::exp(-t * t / 2) / (radius_um * sizes.spread * std::sqrt(2 * std::numbers::pi));
   }
   return std::exp((sizes.spread - 1) * std::log(z) - z - std::lgamma(sizes.spread)) /
          sizes.radius_um;
@@ -87,35 +87,37 @@ double logSpread(const SizeDistribution& sizes) {
 
 SizeNodes sizeNodes(std::span<const SizeDistribution> sizes, double logStep, double offset) {
   SizeNodes nodes;
-  const auto add = [&](double radius) {
-    nodes.radius_um.push_back(radius);
-    nodes.weight.resize(nodes.weight.size() + sizes.size(), 0.0);
-    return nodes.weight.end() - static_cast<std::ptrdiff_t>(sizes.size());
-  };
   std::vector<SizeRange> ranges;
-  for (const SizeDistribution& one : sizes) {
-    ranges.push_back(sizeRange(one));
+  double low = std::numeric_limits<double>::infinity();
+  double high = 0;
+  for (size_t d = 0; d < sizes.size(); ++d) {
+    ranges.push_back(sizeRange(sizes[d]));
+    if (sizes[d].kind == SizeKind::Monodisperse) {
+      nodes.radius_um.push_back(sizes[d].radius_um);
+      nodes.weight.resize(nodes.weight.size() + sizes.size(), 0.0);
+      nodes.weight[nodes.weight.size() - sizes.size() + d] = 1;
+    } else {
+      low = std::min(low, ranges[d].low_um);
+      high = std::max(high, ranges[d].high_um);
+    }
   }
-  double next = 0;  // the radius below which every node is done
-  for (;;) {
-    // The next radius that any spread distribution covers.
-    double start = std::numeric_limits<double>::infinity();
+  if (high == 0) {
+    return nodes;
+  }
+  const auto first = static_cast<long>(std::ceil(std::log(low) / logStep - offset));
+  const auto last = static_cast<long>(std::floor(std::log(high) / logStep - offset));
+  std::vector<double> weight(sizes.size());
+  for (long i = first; i <= last; ++i) {
+    const double radius = std::exp((static_cast<double>(i) + offset) * logStep);
+    bool used = false;
     for (size_t d = 0; d < sizes.size(); ++d) {
-      if (sizes[d].kind != SizeKind::Monodisperse && ranges[d].high_um > next) {
-        start = std::min(start, std::max(next, ranges[d].low_um));
-      }
+      const bool inside = radius >= ranges[d].low_um && radius <= ranges[d].high_um;
+      weight[d] = inside ? sizeDensity(sizes[d], radius) * radius * logStep : 0;
+      used = used || weight[d] > 0;
     }
-    if (std::isinf(start)) {
-      break;
-    }
-    const double place = std::floor(std::log(start) / logStep - offset) + 1;
-    const double radius = std::exp((place + offset) * logStep);
-    next = std::nextafter(radius, std::numeric_limits<double>::infinity());
-    const auto weight = add(radius);
-    for (size_t d = 0; d < sizes.size(); ++d) {
-      if (radius >= ranges[d].low_um && radius <= ranges[d].high_um) {
-        weight[static_cast<std::ptrdiff_t>(d)] = sizeDensity(sizes[d], radius) * radius * logStep;
-      }
+    if (used) {
+      nodes.radius_um.push_back(radius);
+      nodes.weight.insert(nodes.weight.end(), weight.begin(), weight.end());
     }
   }
   return nodes;

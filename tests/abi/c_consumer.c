@@ -10,7 +10,7 @@
 #include <welkin/welkin_vulkan.h>
 
 #define INIT(sType, structure) \
-  EXPECT(WLK_SUCCESS, wlkInitStruct(sType, sizeof structure, &structure))
+  EXPECT(WLK_SUCCESS, wlkInitStruct((sType), sizeof(structure), &(structure)))
 #define EXPECT(expected, call) expectResult(expected, call, #call, __LINE__)
 #define REQUIRE(condition) require(condition, #condition, __LINE__)
 

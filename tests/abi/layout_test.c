@@ -7,8 +7,7 @@
 #include <welkin/welkin_vulkan.h>
 
 #define SIZE(type, size) _Static_assert(sizeof(type) == (size), "size of " #type)
-#define AT(type, field, offset) \
-  _Static_assert(offsetof(type, field) == (offset), #type "::" #field)
+#define AT(type, field, offset) _Static_assert(offsetof(type, field) == (offset), #type "::" #field)
 #define VALUE(name, value) _Static_assert((long long)(name) == (value), #name)
 
 SIZE(WlkErrorInfo, 352);

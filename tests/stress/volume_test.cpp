@@ -17,14 +17,22 @@ SceneOptions small() {
 
 // A scene with sky and sun and one volume around the line of sight; remade by each test.
 struct VolumeScene {
-  explicit VolumeScene(const std::array<uint32_t, 3>& voxels, float extinction = 0.01f,
-                       const SceneOptions& options = small())
-      : scene(options), size(voxels) {
+  explicit VolumeScene(const std::array<uint32_t, 3>& voxels, float extinction = 0.01f)
+      : scene(small()), medium(scene.addMedium()) {
     scene.setSky();
     scene.setSun(30, 40);
     scene.setCamera({0, 2, 0}, 0, 10);
-    volume = scene.addVolume(scene.addMedium(), voxels,
-                             boxTransform({-300, 50, -1500}, {600, 500, 800}), extinction);
+    addVolume(voxels, extinction);
+  }
+  void addVolume(const std::array<uint32_t, 3>& voxels, float extinction) {
+    size = voxels;
+    volume = scene.addVolume(medium, voxels, boxTransform({-300, 50, -1500}, {600, 500, 800}),
+                             extinction);
+  }
+  // Keeps the pipelines, which cost more than anything else here.
+  void replaceVolume(const std::array<uint32_t, 3>& voxels, float extinction) {
+    check(wlkDestroyVolume(scene.context, volume));
+    addVolume(voxels, extinction);
   }
   void upload(uint32_t format, const void* data, uint64_t bytes) const {
     auto info = make<WlkVolumeUpload>();
@@ -40,7 +48,8 @@ struct VolumeScene {
     EXPECT_TRUE(scene.messages().empty()) << scene.messages().front();
   }
   HeadlessScene scene;
-  std::array<uint32_t, 3> size;
+  WlkMedium medium{};
+  std::array<uint32_t, 3> size{};
   WlkVolume volume{};
 };
 
@@ -113,6 +122,7 @@ TEST(GarbageVolume, OneStrangeVoxelDoesNotSpread) {
 }
 
 TEST(VolumeShape, OneVoxelAndFlatAndLongOnesAreFinite) {
+  VolumeScene s({1, 1, 1});
   for (const std::array<uint32_t, 3>& size : {std::array<uint32_t, 3>{1, 1, 1},
                                               {1, 5, 9},
                                               {9, 1, 5},
@@ -121,7 +131,7 @@ TEST(VolumeShape, OneVoxelAndFlatAndLongOnesAreFinite) {
                                               {257, 1, 3}}) {
     SCOPED_TRACE(std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " +
                  std::to_string(size[2]));
-    const VolumeScene s(size);
+    s.replaceVolume(size, 0.01f);
     s.scene.upload(s.volume, size, std::vector<float>(size_t{size[0]} * size[1] * size[2], 1.0f));
     s.expectFinite();
     EXPECT_EQ(s.scene.passes().front().reason, uint32_t{WLK_REASON_NEEDED});
@@ -131,9 +141,10 @@ TEST(VolumeShape, OneVoxelAndFlatAndLongOnesAreFinite) {
 TEST(VolumeShape, AnyOpticalDepthPerVoxelIsFinite) {
   constexpr std::array<uint32_t, 3> SIZE{8, 8, 8};
   // Voxels of 100 m along z: extinctions that make 1e-7 to 1e7 per voxel, 1e4 among them.
+  VolumeScene s(SIZE);
   for (const float extinction : {1e-9f, 1e-4f, 1.0f, 100.0f, 1e6f}) {
     SCOPED_TRACE(extinction);
-    const VolumeScene s(SIZE, extinction);
+    s.replaceVolume(SIZE, extinction);
     std::vector<float> values;
     for (uint32_t i = 0; i < 512; ++i) {
       values.push_back((i + i / 8 + i / 64) % 2 == 0 ? 1.0f : 0.0f);

@@ -67,32 +67,35 @@ std::array<double, 12> boxTransform(const std::array<double, 3>& lo,
   return {edges[0], 0, 0, lo[0], 0, edges[1], 0, lo[1], 0, 0, edges[2], lo[2]};
 }
 
-HeadlessScene::HeadlessScene(const SceneOptions& options)
+SceneBuilder::SceneBuilder(const SceneOptions& options)
     : options_(options), messages_(std::make_unique<std::vector<std::string>>()) {
   chooseDriver();
-  auto headless = make<WlkHeadlessInfo>();
-  headless.flags = options.validation ? uint64_t{WLK_HEADLESS_VALIDATION} : 0;
+}
+
+void SceneBuilder::create(const void* chained) {
   auto info = make<WlkContextInfo>();
-  info.next = &headless;
-  info.allocator = options.allocator;
+  info.next = chained;
+  info.allocator = options_.allocator;
   info.log = keepMessage;
   info.logUser = messages_.get();
   check(wlkCreateContext(&info, &context));
-  if (options.view) {
-    view = addView(options);
+  if (options_.view) {
+    view = addView(options_);
   }
 }
 
-HeadlessScene::~HeadlessScene() {
-  wlkDestroyContext(context);
+HeadlessScene::HeadlessScene(const SceneOptions& options) : SceneBuilder(options) {
+  auto headless = make<WlkHeadlessInfo>();
+  headless.flags = options.validation ? uint64_t{WLK_HEADLESS_VALIDATION} : 0;
+  create(&headless);
 }
 
-void HeadlessScene::setSky() const {
+void SceneBuilder::setSky() const {
   const auto sky = make<WlkSky>();
   check(wlkSetSky(context, &sky));
 }
 
-void HeadlessScene::setSun(double elevation_deg, double azimuth_deg) const {
+void SceneBuilder::setSun(double elevation_deg, double azimuth_deg) const {
   auto light = make<WlkLight>();
   const double elevation = radians(elevation_deg);
   const double azimuth = radians(azimuth_deg);
@@ -102,29 +105,29 @@ void HeadlessScene::setSun(double elevation_deg, double azimuth_deg) const {
   check(wlkSetLights(context, 1, sizeof light, &light));
 }
 
-void HeadlessScene::setFog(float extinction, float scaleHeight) const {
+void SceneBuilder::setFog(float extinction, float scaleHeight) const {
   auto fog = make<WlkFog>();
   fog.extinction = extinction;
   fog.scaleHeight = scaleHeight;
   check(wlkSetFog(context, &fog));
 }
 
-void HeadlessScene::clearSky() const {
+void SceneBuilder::clearSky() const {
   check(wlkSetSky(context, nullptr));
 }
 
-void HeadlessScene::clearLights() const {
+void SceneBuilder::clearLights() const {
   check(wlkSetLights(context, 0, 0, nullptr));
 }
 
-WlkMedium HeadlessScene::addMedium() const {
+WlkMedium SceneBuilder::addMedium() const {
   const auto info = make<WlkMediumInfo>();
   WlkMedium medium{};
   check(wlkCreateMedium(context, &info, &medium));
   return medium;
 }
 
-WlkMedium HeadlessScene::addHenyeyGreenstein(float asymmetry) const {
+WlkMedium SceneBuilder::addHenyeyGreenstein(float asymmetry) const {
   auto info = make<WlkMediumInfo>();
   info.phase = WLK_PHASE_HENYEY_GREENSTEIN;
   info.asymmetry = asymmetry;
@@ -133,9 +136,9 @@ WlkMedium HeadlessScene::addHenyeyGreenstein(float asymmetry) const {
   return medium;
 }
 
-WlkVolume HeadlessScene::addVolume(WlkMedium medium, const std::array<uint32_t, 3>& size,
-                                   const std::array<double, 12>& worldFromVolume,
-                                   float extinctionScale) const {
+WlkVolume SceneBuilder::addVolume(WlkMedium medium, const std::array<uint32_t, 3>& size,
+                                  const std::array<double, 12>& worldFromVolume,
+                                  float extinctionScale) const {
   WlkVolumeField field{};
   field.medium = medium;
   field.extinctionScale = extinctionScale;
@@ -149,8 +152,8 @@ WlkVolume HeadlessScene::addVolume(WlkMedium medium, const std::array<uint32_t, 
   return volume;
 }
 
-void HeadlessScene::upload(WlkVolume volume, const std::array<uint32_t, 3>& size,
-                           const std::vector<float>& values, uint32_t field) const {
+void SceneBuilder::upload(WlkVolume volume, const std::array<uint32_t, 3>& size,
+                          const std::vector<float>& values, uint32_t field) const {
   auto upload = make<WlkVolumeUpload>();
   upload.field = field;
   std::memcpy(upload.extent, size.data(), sizeof upload.extent);
@@ -159,7 +162,7 @@ void HeadlessScene::upload(WlkVolume volume, const std::array<uint32_t, 3>& size
   check(wlkUploadVolume(context, volume, &upload));
 }
 
-WlkVolume HeadlessScene::addBall(float extinction) const {
+WlkVolume SceneBuilder::addBall(float extinction) const {
   constexpr uint32_t N = 8;
   std::vector<float> values;
   for (uint32_t i = 0; i < N * N * N; ++i) {
@@ -177,12 +180,13 @@ WlkVolume HeadlessScene::addBall(float extinction) const {
   return volume;
 }
 
-WlkView HeadlessScene::addView(const SceneOptions& options) const {
+WlkView SceneBuilder::addView(const SceneOptions& options) const {
   auto info = make<WlkViewInfo>();
   info.width = options.width;
   info.height = options.height;
   info.composite = options.composite;
   info.layers = options.layers;
+  info.targetFormat = options.targetFormat;
   WlkView made{};
   check(wlkCreateView(context, &info, &made));
   auto quality = make<WlkQuality>();
@@ -192,8 +196,8 @@ WlkView HeadlessScene::addView(const SceneOptions& options) const {
   return made;
 }
 
-void HeadlessScene::setCamera(const std::array<double, 3>& position, double yaw_deg,
-                              double pitch_deg) const {
+void SceneBuilder::setCamera(const std::array<double, 3>& position, double yaw_deg,
+                             double pitch_deg) const {
   auto camera = make<WlkCamera>();
   std::memcpy(camera.position, position.data(), sizeof camera.position);
   const double cy = std::cos(radians(yaw_deg));
@@ -212,7 +216,7 @@ void HeadlessScene::setCamera(const std::array<double, 3>& position, double yaw_
   check(wlkSetCamera(context, view, &camera));
 }
 
-void HeadlessScene::setQuality(uint32_t level, uint64_t flags) const {
+void SceneBuilder::setQuality(uint32_t level, uint64_t flags) const {
   auto quality = make<WlkQuality>();
   quality.level = level;
   quality.flags = flags;
@@ -239,14 +243,14 @@ Image HeadlessScene::read(uint32_t image) const {
   return result;
 }
 
-WlkFrameStats HeadlessScene::stats() const {
+WlkFrameStats SceneBuilder::stats() const {
   auto stats = make<WlkFrameStats>();
   uint32_t count = 0;
   check(wlkGetFrameStats(context, view, &stats, &count, nullptr));
   return stats;
 }
 
-std::vector<WlkPassStats> HeadlessScene::passes() const {
+std::vector<WlkPassStats> SceneBuilder::passes() const {
   auto stats = make<WlkFrameStats>();
   uint32_t count = 0;
   check(wlkGetFrameStats(context, view, &stats, &count, nullptr));

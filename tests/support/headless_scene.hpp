@@ -40,6 +40,7 @@ struct SceneOptions {
   uint32_t width = 32;
   uint32_t height = 24;
   uint32_t composite = WLK_COMPOSITE_COMPUTE;
+  uint32_t targetFormat = WLK_TARGET_RGBA32_FLOAT;
   uint64_t layers = WLK_LAYER_ALL;
   uint32_t level = WLK_QUALITY_LOW;
   uint64_t qualityFlags = 0;
@@ -50,12 +51,11 @@ struct SceneOptions {
 std::array<double, 12> boxTransform(const std::array<double, 3>& lo,
                                     const std::array<double, 3>& edges);
 
-class HeadlessScene {
+// What can be set in any context with a device.
+class SceneBuilder {
  public:
-  explicit HeadlessScene(const SceneOptions& options = {});
-  ~HeadlessScene();
-  HeadlessScene(const HeadlessScene&) = delete;
-  HeadlessScene& operator=(const HeadlessScene&) = delete;
+  SceneBuilder(const SceneBuilder&) = delete;
+  SceneBuilder& operator=(const SceneBuilder&) = delete;
 
   WlkContext context = nullptr;
   WlkView view{};
@@ -84,18 +84,30 @@ class HeadlessScene {
   void setCamera(const std::array<double, 3>& position, double yaw_deg, double pitch_deg) const;
   void setQuality(uint32_t level, uint64_t flags = 0) const;
 
-  // wlkPrepare, wlkRenderHeadless and wlkReadback.
-  Image render(const WlkHeadlessTargets* targets = nullptr) const;
-  Image read(uint32_t image) const;
   WlkFrameStats stats() const;
   std::vector<WlkPassStats> passes() const;
+  const SceneOptions& options() const { return options_; }
 
   // Everything the context logged, validation messages included.
   const std::vector<std::string>& messages() const { return *messages_; }
 
- private:
+ protected:
+  explicit SceneBuilder(const SceneOptions& options);
+  ~SceneBuilder() { wlkDestroyContext(context); }
+  // Makes the context with `chained` in its chain, and the view.
+  void create(const void* chained);
+
   SceneOptions options_;
   std::unique_ptr<std::vector<std::string>> messages_;  // a fixed address for the log callback
+};
+
+class HeadlessScene : public SceneBuilder {
+ public:
+  explicit HeadlessScene(const SceneOptions& options = {});
+
+  // wlkPrepare, wlkRenderHeadless and wlkReadback.
+  Image render(const WlkHeadlessTargets* targets = nullptr) const;
+  Image read(uint32_t image) const;
 };
 
 }  // namespace welkin::test

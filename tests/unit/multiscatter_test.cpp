@@ -98,6 +98,7 @@ TEST(ScatteringCoordinates, NodesAreTheInverse) {
     EXPECT_NEAR(f32::depthCoordinate(static_cast<float>(depthNode(s))), s, 6 * EPS_FLOAT) << j;
   }
   EXPECT_EQ(f32::depthCoordinate(1e30f), 1.0f);
+  EXPECT_EQ(f32::depthCoordinate(-2.0f), 0.0f);
   EXPECT_EQ(f32::phaseCoordinate(2.0000005f), 1.0f);
 }
 

@@ -103,16 +103,18 @@ class Cases {
 
   Case aerialPerspective() {
     Case c{};
-    c.ray.altitude = 12000.0 * uniform(0.0, 1.0) * uniform(0.0, 1.0);
-    c.ray.viewMu = uniform(-1.0, 1.0) * (coin() ? 1.0 : 0.1);
+    c.ray.altitude = 12000.0 * std::pow(uniform(0.0, 1.0), 2.0);
+    c.ray.viewMu = uniform(-1.0, 1.0);
+    c.ray.viewMu *= coin() ? 1.0 : 0.1;
     c.ray.length = uniform(10.0, 50000.0);
     finish(c, uniform(0.0, 80.0));
     return c;
   }
   Case sky(double lowestSun, double highestSun) {
     Case c{};
-    c.ray.altitude = 12000.0 * uniform(0.0, 1.0) * uniform(0.0, 1.0);
-    c.ray.viewMu = uniform(-1.0, 1.0) * (coin() ? 1.0 : 0.2);
+    c.ray.altitude = 12000.0 * std::pow(uniform(0.0, 1.0), 2.0);
+    c.ray.viewMu = uniform(-1.0, 1.0);
+    c.ray.viewMu *= coin() ? 1.0 : 0.2;
     c.ray.length = INF;
     finish(c, uniform(lowestSun, highestSun));
     return c;
@@ -125,13 +127,17 @@ class Cases {
     finish(c, uniform(0.0, 80.0));
     return c;
   }
-  Case fog(double altitude, double mu, double length) {
+  // Exponents of the altitude and of the length; any length above 5 means infinite.
+  Case fog(double lowAltitude, double highAltitude, double lowMu, double highMu, double lowLength,
+           double highLength) {
     Case c{};
     c.planet.fogExtinction = power(-5.0, -1.5);
     c.planet.fogScaleHeight = power(1.0, 3.3);
-    c.ray.altitude = altitude;
-    c.ray.viewMu = mu * (coin() ? 1.0 : 0.1);
-    c.ray.length = length;
+    c.ray.altitude = power(lowAltitude, highAltitude);
+    c.ray.viewMu = uniform(lowMu, highMu);
+    c.ray.viewMu *= coin() ? 1.0 : 0.1;
+    c.ray.length = power(lowLength, highLength);
+    c.ray.length = c.ray.length > 1e5 ? INF : c.ray.length;
     finish(c, uniform(0.0, 80.0));
     return c;
   }
@@ -280,10 +286,9 @@ TEST(AirAlongRay, FogAndAirMatchQuadrature) {
   ErrorSample sky;
   ErrorSample above;
   for (int i = 0; i < RAYS; ++i) {
-    near.add(radianceError(
-        cases.fog(cases.power(0.3, 3.3), cases.uniform(-1.0, 1.0), cases.power(1.0, 4.7))));
-    sky.add(radianceError(cases.fog(cases.power(0.3, 3.3), cases.uniform(0.0, 1.0), INF)));
-    above.add(radianceError(cases.fog(cases.power(3.0, 4.0), cases.uniform(-1.0, 0.0), INF)));
+    near.add(radianceError(cases.fog(0.3, 3.3, -1.0, 1.0, 1.0, 4.7)));
+    sky.add(radianceError(cases.fog(0.3, 3.3, 0.0, 1.0, 6.0, 7.0)));
+    above.add(radianceError(cases.fog(3.0, 4.0, -1.0, 0.0, 6.0, 7.0)));
   }
   report("fog to 50 km", near);
   report("fog and sky", sky);
@@ -301,9 +306,7 @@ TEST(AirAlongRay, OpticalDepthMatchesQuadrature) {
   ErrorSample whole;
   ErrorSample segments;
   for (int i = 0; i < 4 * RAYS; ++i) {
-    const Case c = i % 2 == 0 ? cases.sky(0.0, 80.0)
-                              : cases.fog(cases.power(0.3, 4.0), cases.uniform(-1.0, 1.0),
-                                          i % 4 == 1 ? INF : cases.power(0.0, 5.0));
+    const Case c = i % 2 == 0 ? cases.sky(0.0, 80.0) : cases.fog(0.3, 4.0, -1.0, 1.0, 0.0, 6.0);
     const ref::Columns columns = ref::columns(c.planet, c.ray.altitude, c.ray.viewMu, c.ray.length);
     const std::array<double, 3> truth = ref::depthOf(c.planet, columns);
     const f64::vec3 a = f64::airOpticalDepth(air64(c.planet), ray64(c.ray), c.ray.length);
@@ -327,7 +330,7 @@ TEST(AirAlongRay, FloatFollowsDouble) {
   for (int i = 0; i < 20000; ++i) {
     Case c = i % 3 == 0   ? cases.sky(0.0, 88.0)
              : i % 3 == 1 ? cases.aerialPerspective()
-                          : cases.fog(cases.power(0.0, 4.0), cases.uniform(-1.0, 1.0), 1e5);
+                          : cases.fog(0.0, 4.0, -1.0, 1.0, 4.0, 5.0);
     // Both precisions see the same numbers.
     const f32::AirRay r32 = ray32(c.ray);
     c.ray = {r32.altitude, r32.viewMu, r32.sunMu, r32.viewSun, static_cast<float>(c.ray.length)};
@@ -398,7 +401,7 @@ TEST(AirAlongRay, IsFiniteAndNeverNegativeAnywhere) {
 
 TEST(AirAlongRay, VanishesWithoutMatterOrLengthOrLight) {
   Cases cases;
-  Case c = cases.fog(2.0, 0.3, 1e4);
+  Case c = cases.fog(0.3, 1.0, 0.2, 0.4, 3.0, 4.0);
   const f64::AirResult none =
       f64::airAlongRay(air64(c.planet), ray64(c.ray), 0.0, 1.0, 1.0, SUN_RADIUS);
   EXPECT_EQ(none.radiance.x, 0.0);
@@ -421,7 +424,7 @@ TEST(AirOpticalDepth, OfTwoHalvesAddsUpToTheWhole) {
   Cases cases;
   double worst = 0.0;
   for (int i = 0; i < 5000; ++i) {
-    const Case c = cases.fog(cases.power(0.0, 4.0), cases.uniform(-1.0, 1.0), 1e5);
+    const Case c = cases.fog(0.0, 4.0, -1.0, 1.0, 4.0, 5.0);
     const f64::Air air = air64(c.planet);
     const f64::AirRay first = ray64(c.ray);
     const double half = c.ray.length * cases.uniform(0.1, 0.9);

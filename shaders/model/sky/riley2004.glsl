@@ -173,20 +173,24 @@ AirPoint airPoint(Air air, AirPath path, real t) {
   return point;
 }
 
-// Optical depth of air and fog from a point of a ray to the light, RGB.
-vec3 lightDepthAt(Air air, AirPoint point, real lightMu) {
-  vec3 depth = vec3(real(0.0f));
+// Columns of air (x) and fog (y) from a point of a ray to the light, per unit extinction. m.
+vec2 lightColumns(Air air, AirPoint point, real lightMu) {
+  vec2 columns = vec2(real(0.0f));
   real radius = air.planetRadius + point.altitude;
   if (AIR_ENABLED) {
-    depth = air.airScattering * layerColumn(point.air.exponent, point.air.density,
-                                            air.airScaleHeight, radius, lightMu);
+    columns.x = layerColumn(point.air.exponent, point.air.density, air.airScaleHeight, radius,
+                            lightMu);
   }
   if (FOG_ENABLED) {
-    real column = layerColumn(point.fog.exponent, point.fog.density, air.fogScaleHeight, radius,
-                              lightMu);
-    depth = depth + vec3(air.fogExtinction * column);
+    columns.y = layerColumn(point.fog.exponent, point.fog.density, air.fogScaleHeight, radius,
+                            lightMu);
   }
-  return depth;
+  return columns;
+}
+
+// Optical depth of columns, RGB.
+vec3 depthOfColumns(Air air, vec2 columns) {
+  return air.airScattering * columns.x + vec3(air.fogExtinction * columns.y);
 }
 
 // Optical depth from `altitude` to the light, RGB. Below the horizon it grows smoothly up to
@@ -202,22 +206,31 @@ vec3 lightOpticalDepth(Air air, real altitude, real lightMu) {
     point.fog.exponent = layerExponent(altitude, air.fogBaseAltitude, air.fogScaleHeight);
     point.fog.density = layerDensity(point.fog.exponent);
   }
-  return lightDepthAt(air, point, lightMu);
+  return depthOfColumns(air, lightColumns(air, point, lightMu));
 }
 
-// Depth per unit extinction (m) between two points on the same side of the ray's lowest one, at
-// most `sag` m above the ray's chord. Nearly straight: logarithmic mean of the densities, all from
-// c = (b/2) coth(b/2), b the difference of exponents, times the curvature's series in g sag/H,
-// g = 8 (c - 1) / b^2 the first moment (error <= 5e-4 at the switch). Else: difference of columns.
+// A layer between two points of a ray.
+struct LayerSpan {
+  // Depth per unit extinction. m.
+  real column;
+  // How far the layer's centre lies before the middle, as a share of the span: -0.5..0.5.
+  real lean;
+};
+
+// Two points on the same side of the ray's lowest one, at most `sag` m above the ray's chord.
+// Nearly straight: logarithmic mean of the densities, all from c = (b/2) coth(b/2), b the
+// difference of exponents, times the curvature's series in g sag/H, g = 8 (c - 1) / b^2 the first
+// moment (error <= 5e-4 at the switch). Else: difference of columns.
 const real CURVATURE_2 = real(0.6);
 const real CURVATURE_3 = real(0.857);
-real layerDepth(LayerPoint a, LayerPoint b, real scaleHeight, real length, real sag) {
-  real rise = abs(a.exponent - b.exponent);
+LayerSpan layerSpan(LayerPoint a, LayerPoint b, real scaleHeight, real length, real sag) {
+  real rise = a.exponent - b.exponent;
+  real size = abs(rise);
   real z = rise * rise;
   real sum = a.density + b.density;
   real fall = max(abs(a.density - b.density), VACUUM_DENSITY);
-  real slope = rise < real(0.5f) ? cothSeries(z)
-                                 : (real(0.5f) * rise * sum / fall - real(1.0f)) / z;
+  real slope = size < real(0.5f) ? cothSeries(z)
+                                 : (real(0.5f) * size * sum / fall - real(1.0f)) / z;
   real g = min(real(8.0f) * slope, real(1.0f));
   real s = sag / scaleHeight;
   real p = g * s;
@@ -225,23 +238,35 @@ real layerDepth(LayerPoint a, LayerPoint b, real scaleHeight, real length, real 
   real p3 = (real(1.0f) - CURVATURE_3 * g) * p;
   real curvature = real(1.0f) + p * (real(1.0f) + p2 * (real(1.0f) + p3));
   real straight = length * real(0.5f) * sum / (real(1.0f) + z * slope) * curvature;
-  return s < real(0.25f) ? straight : abs(a.column - b.column);
+  LayerSpan span;
+  span.column = s < real(0.25f) ? straight : abs(a.column - b.column);
+  span.lean = clamp(rise * slope, real(-0.5f), real(0.5f));
+  return span;
 }
 
-// Depths of air (x) and fog (y) between two points, per unit extinction. m.
-vec2 airDepth(Air air, AirPath path, AirPoint a, AirPoint b) {
+// Both layers between two points.
+struct AirSpan {
+  LayerSpan air;
+  LayerSpan fog;
+};
+
+AirSpan airSpan(Air air, AirPath path, AirPoint a, AirPoint b) {
   real length = b.distance - a.distance;
   real radius = air.planetRadius + real(0.5f) * (a.altitude + b.altitude);
   real across = length * path.lowestRadius / radius;
   real sag = across * across / (real(8.0f) * radius);
-  vec2 depth = vec2(real(0.0f));
+  AirSpan span;
+  span.air.column = real(0.0f);
+  span.air.lean = real(0.0f);
+  span.fog.column = real(0.0f);
+  span.fog.lean = real(0.0f);
   if (AIR_ENABLED) {
-    depth.x = layerDepth(a.air, b.air, air.airScaleHeight, length, sag);
+    span.air = layerSpan(a.air, b.air, air.airScaleHeight, length, sag);
   }
   if (FOG_ENABLED) {
-    depth.y = layerDepth(a.fog, b.fog, air.fogScaleHeight, length, sag);
+    span.fog = layerSpan(a.fog, b.fog, air.fogScaleHeight, length, sag);
   }
-  return depth;
+  return span;
 }
 
 // Where the stops of one layer lie on a ray: close together near `focus`, the ray's point in the
@@ -333,14 +358,60 @@ real meanTransmittance(real e0, real e1, real rise) {
   return abs(rise) < real(0.5f) ? e0 * phi1Small(rise) : (e0 - e1) / rise;
 }
 
+vec3 meanTransmittance3(vec3 e0, vec3 e1, vec3 rise) {
+  vec3 mean;
+  mean.x = meanTransmittance(e0.x, e1.x, rise.x);
+  mean.y = meanTransmittance(e0.y, e1.y, rise.y);
+  mean.z = meanTransmittance(e0.z, e1.z, rise.z);
+  return mean;
+}
+
+vec3 safeExp3(vec3 x) {
+  return vec3(safeExp(x.x), safeExp(x.y), safeExp(x.z));
+}
+
+// One end of a segment: light depth + view depth in front of it, and its exponential.
+struct SegmentEnd {
+  vec3 depth;
+  vec3 transmittance;
+};
+
+// Mean transmittance for a layer whose centre lies `late` (share of the segment, -1..1) behind the
+// other layer's, which adds `other` to the depth over the segment. Of it the share |2 late| is
+// passed before (late > 0) or after (late < 0) all of the layer, the rest evenly along it.
+vec3 displacedMean(SegmentEnd a, SegmentEnd b, vec3 other, real late) {
+  real share = clamp(real(2.0f) * late, real(-1.0f), real(1.0f));
+  vec3 moved = (share > real(0.0f) ? a.depth : b.depth) + other * share;
+  vec3 e = safeExp3(-moved);
+  vec3 e0 = share > real(0.0f) ? e : a.transmittance;
+  vec3 e1 = share > real(0.0f) ? b.transmittance : e;
+  return meanTransmittance3(e0, e1, b.depth - a.depth - other * abs(share));
+}
+
+// Where along a segment (-0.5..0.5 from its middle) the light of a layer comes from whose depth
+// changes by `own` over the segment: at the depth share y with mean weight e^(-own x), close to
+// 1/2 - L(own/2)/2, L(x) = x / (2 + sqrt(1 + x^2)) near Langevin's function; y taken back to the
+// distance through the exponential profile, by its second-order term where that is nearly flat.
+real layerCentre(LayerPoint a, LayerPoint b, real own) {
+  real x = real(0.5f) * own;
+  real y = real(0.5f) - real(0.5f) * x / (real(2.0f) + sqrt(real(1.0f) + x * x));
+  real growth = max(b.exponent, LAYER_VACUUM) - max(a.exponent, LAYER_VACUUM);
+  real density = a.density + (b.density - a.density) * y;
+  real steep = (log(density) - max(a.exponent, LAYER_VACUUM)) / growth;
+  real flat_ = y + real(0.5f) * growth * y * (real(1.0f) - y);
+  return (abs(growth) < real(0.5f) ? flat_ : steep) - real(0.5f);
+}
+
 // Optical depth along a ray of `distance` m (may be infinite; the ground is the caller's to clip).
 vec3 airOpticalDepth(Air air, AirRay ray, real distance) {
   AirPath path = clipToAir(air, ray, distance);
   AirPoint first = airPoint(air, path, real(0.0f));
   AirPoint middle = airPoint(air, path, clamp(path.lowest, real(0.0f), path.reach));
   AirPoint last = airPoint(air, path, path.reach);
-  vec2 depth = airDepth(air, path, first, middle) + airDepth(air, path, middle, last);
-  return air.airScattering * depth.x + vec3(air.fogExtinction * depth.y);
+  AirSpan before = airSpan(air, path, first, middle);
+  AirSpan after = airSpan(air, path, middle, last);
+  return depthOfColumns(air, vec2(before.air.column + after.air.column,
+                                  before.fog.column + after.fog.column));
 }
 
 // Segments per ray: stops of each layer, the lowest point, two shadow edges and the end.
@@ -372,9 +443,11 @@ AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, real fo
     fogRank = air.fogExtinction * dense * fogStops.width > FOG_MATTERS ? 1 : FOG_STOPS;
   }
   AirPoint here = airPoint(air, path, real(0.0f));
-  vec3 nearDepth = lightDepthAt(air, here, path.sunMu);
-  vec3 nearLight = vec3(safeExp(-nearDepth.x), safeExp(-nearDepth.y), safeExp(-nearDepth.z));
-  vec3 viewDepth = vec3(real(0.0f));
+  vec2 hereColumns = lightColumns(air, here, path.sunMu);
+  SegmentEnd hereEnd;
+  hereEnd.depth = depthOfColumns(air, hereColumns);
+  hereEnd.transmittance = safeExp3(-hereEnd.depth);
+  vec2 viewColumns = vec2(real(0.0f));
   AirResult result;
   result.radiance = vec3(real(0.0f));
   int segment = 0;
@@ -392,21 +465,29 @@ AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, real fo
     fogRank = fogStop <= t ? fogRank + 1 : fogRank;
 
     AirPoint next = airPoint(air, path, t);
-    vec2 depth = airDepth(air, path, here, next);
-    vec3 airPart = air.airScattering * depth.x;
-    real fogPart = air.fogExtinction * depth.y;
-    viewDepth = viewDepth + airPart + vec3(fogPart);
+    AirSpan span = airSpan(air, path, here, next);
+    viewColumns = viewColumns + vec2(span.air.column, span.fog.column);
+    real nextRadius = air.planetRadius + next.altitude;
+    real nextMu = (radius * path.sunMu + t * path.viewSun) / nextRadius;
+    nextMu = clamp(nextMu, real(-1.0f), real(1.0f));
+    vec2 nextColumns = lightColumns(air, next, nextMu) + viewColumns;
+    SegmentEnd nextEnd;
+    nextEnd.depth = depthOfColumns(air, nextColumns);
+    nextEnd.transmittance = safeExp3(-nextEnd.depth);
 
-    real farRadius = air.planetRadius + next.altitude;
-    real farMu = (radius * path.sunMu + t * path.viewSun) / farRadius;
-    farMu = clamp(farMu, real(-1.0f), real(1.0f));
-    vec3 farDepth = lightDepthAt(air, next, farMu) + viewDepth;
-    vec3 farLight = vec3(safeExp(-farDepth.x), safeExp(-farDepth.y), safeExp(-farDepth.z));
-    vec3 rise = farDepth - nearDepth;
-    vec3 mean;
-    mean.x = meanTransmittance(nearLight.x, farLight.x, rise.x);
-    mean.y = meanTransmittance(nearLight.y, farLight.y, rise.y);
-    mean.z = meanTransmittance(nearLight.z, farLight.z, rise.z);
+    vec3 airPart = air.airScattering * (span.air.column * airPhase);
+    vec3 fogPart = air.fogAlbedo * (air.fogExtinction * span.fog.column * fogPhase);
+    vec3 light;
+    if (AIR_ENABLED && FOG_ENABLED) {
+      vec2 rise = nextColumns - hereColumns;
+      real late = span.fog.lean - span.air.lean;
+      real fogLate = layerCentre(here.fog, next.fog, air.fogExtinction * rise.y) + span.air.lean;
+      light = airPart * displacedMean(hereEnd, nextEnd, vec3(air.fogExtinction * rise.y), late) +
+              fogPart * displacedMean(hereEnd, nextEnd, air.airScattering * rise.x, fogLate);
+    } else {
+      light = (airPart + fogPart) * meanTransmittance3(hereEnd.transmittance, nextEnd.transmittance,
+                                                       nextEnd.depth - hereEnd.depth);
+    }
 
     // The planet's shadow at the middle: its edges are stops.
     real between = real(0.5f) * (here.distance + t);
@@ -414,14 +495,13 @@ AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, real fo
     real middleMu = (radius * path.sunMu + between * path.viewSun) / (air.planetRadius + middle);
     real lit = lightVisibility(air, middle, clamp(middleMu, real(-1.0f), real(1.0f)),
                                angularRadius);
-    vec3 source = airPart * airPhase + air.fogAlbedo * (fogPart * fogPhase);
-    result.radiance = result.radiance + source * mean * lit;
+    result.radiance = result.radiance + light * lit;
 
     here = next;
-    nearDepth = farDepth;
-    nearLight = farLight;
+    hereColumns = nextColumns;
+    hereEnd = nextEnd;
     segment += 1;
   } while (here.distance < path.reach && segment < MAX_SEGMENTS);
-  result.opticalDepth = viewDepth;
+  result.opticalDepth = depthOfColumns(air, viewColumns);
   return result;
 }

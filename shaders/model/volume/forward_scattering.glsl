@@ -25,10 +25,10 @@ real phaseCoordinate(real y) {
   return real(0.5f) * (sqrt(sine) + real(1.0f) - sqrt(cosine));
 }
 
-// Table coordinate in [0, 1] of a scattering depth n >= 0; clamped beyond SCATTERING_DEPTH_NMAX.
+// Table coordinate in [0, 1] of a scattering depth n; clamped outside [0, SCATTERING_DEPTH_NMAX].
 real depthCoordinate(real n) {
-  real x = clamp(n, real(0.0f), SCATTERING_DEPTH_NMAX);
-  return min(log(real(1.0f) + x / SCATTERING_DEPTH_N0) * SCATTERING_DEPTH_SCALE, real(1.0f));
+  real x = max(n, real(0.0f)) / SCATTERING_DEPTH_N0;
+  return min(log(real(1.0f) + x) * SCATTERING_DEPTH_SCALE, real(1.0f));
 }
 
 // Rate at which light directed away from its source is lost per optical depth: dI/dtau =

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// The window sample in a virtual display: no validation message, a picture in the file, and the
+// same picture from every composite mode.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_PNG
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#endif
+#include <stb/stb_image.h>
+#if defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
+
+namespace {
+
+constexpr int WIDTH = 320;
+constexpr int HEIGHT = 180;
+
+int run(const std::string& arguments) {
+  const int status = std::system((std::string(WELKIN_WINDOW) + " " + arguments).c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+// RGB bytes of a screenshot after a few frames, under validation.
+std::vector<unsigned char> screenshot(const std::string& mode) {
+  const std::string file = testing::TempDir() + "welkin_window_" + mode + ".png";
+  std::remove(file.c_str());
+  const std::string size = std::to_string(WIDTH) + "x" + std::to_string(HEIGHT);
+  EXPECT_EQ(run("--validate --quality low --frames 4 --composite " + mode + " --size " + size +
+                " --screenshot " + file),
+            0)
+      << mode;
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  unsigned char* data = stbi_load(file.c_str(), &width, &height, &channels, 3);
+  std::vector<unsigned char> pixels;
+  if (data != nullptr) {
+    pixels.assign(data,
+                  data + size_t{3} * static_cast<size_t>(width) * static_cast<size_t>(height));
+    stbi_image_free(data);
+  }
+  EXPECT_EQ(width, WIDTH);
+  EXPECT_EQ(height, HEIGHT);
+  std::remove(file.c_str());
+  return pixels;
+}
+
+TEST(WindowSample, EveryCompositeModeShowsTheSamePictureWithoutAMessage) {
+  if (std::string(WELKIN_WINDOW).empty()) {
+    GTEST_SKIP() << "no window sample or no xvfb-run in this build";
+  }
+  const std::vector<unsigned char> compute = screenshot("compute");
+  ASSERT_FALSE(compute.empty());
+  double top = 0;
+  double bottom = 0;
+  const size_t half = compute.size() / 2;
+  for (size_t i = 0; i < half; ++i) {
+    top += compute[i];
+    bottom += compute[half + i];
+  }
+  // Daylight: sky above, a darker meadow below, neither black nor white.
+  EXPECT_GT(top / static_cast<double>(half), 80.0);
+  EXPECT_LT(top / static_cast<double>(half), 240.0);
+  EXPECT_GT(bottom / static_cast<double>(half), 30.0);
+  EXPECT_LT(bottom, top);
+  for (const char* mode : {"blend", "separate"}) {
+    const std::vector<unsigned char> picture = screenshot(mode);
+    ASSERT_EQ(picture.size(), compute.size()) << mode;
+    int worst = 0;
+    for (size_t i = 0; i < compute.size(); ++i) {
+      worst = std::max(worst, std::abs(int{picture[i]} - int{compute[i]}));
+    }
+    // Half-float rounding (2^-10) moves an 8-bit value by less than one step, plus its rounding.
+    EXPECT_LE(worst, 2) << mode;
+  }
+}
+
+TEST(WindowSample, BadOptionsAreErrors) {
+  if (std::string(WELKIN_WINDOW).empty()) {
+    GTEST_SKIP() << "no window sample or no xvfb-run in this build";
+  }
+  EXPECT_NE(run("--composite sideways 2>/dev/null"), 0);
+  EXPECT_NE(run("--size 12 2>/dev/null"), 0);
+  EXPECT_NE(run("--screenshot a.png 2>/dev/null"), 0) << "a screenshot needs --frames";
+}
+
+}  // namespace

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "support/engine_scene.hpp"
+
+#include <cstring>
+
+namespace welkin::test {
+namespace {
+
+VkFormat formatOf(uint32_t targetFormat) {
+  return targetFormat == WLK_TARGET_RGBA32_FLOAT ? VK_FORMAT_R32G32B32A32_SFLOAT
+                                                 : VK_FORMAT_R16G16B16A16_SFLOAT;
+}
+
+}  // namespace
+
+EngineScene::EngineScene(const SceneOptions& options) : SceneBuilder(options) {
+  auto info = make<WlkVulkanDeviceInfo>();
+  info.getInstanceProcAddr = SpyDevice::getInstanceProcAddr();
+  info.instance = spy.instance;
+  info.physicalDevice = spy.physical;
+  info.device = spy.device;
+  info.apiVersion = VK_API_VERSION_1_3;
+  info.queueFamilyIndex = spy.family;
+  info.dualSrcBlendEnabled = 1;
+  create(&info);
+  target_.emplace(spy, formatOf(options.targetFormat), VkExtent3D{options.width, options.height, 1},
+                  VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
+  std::memset(target_->bytes(), 0, size_t{16} * options.width * options.height);
+  target_->write(VK_IMAGE_LAYOUT_GENERAL);
+}
+
+EngineScene::~EngineScene() {
+  // The context goes before the images it has views of.
+  wlkDestroyContext(context);
+  context = nullptr;
+}
+
+WlkVulkanImage EngineScene::describe(const SpyImage& image, VkImageLayout layout) const {
+  auto described = make<WlkVulkanImage>();
+  described.image = image.handle;
+  described.format = image.format;
+  described.width = image.extent.width;
+  described.height = image.extent.height;
+  described.depth = image.extent.depth;
+  described.before.layout = described.after.layout = layout;
+  described.before.stages = described.after.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  described.before.access = described.after.access =
+      VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+  return described;
+}
+
+WlkVulkanViewTargets EngineScene::targets(const WlkVulkanImage& color) const {
+  auto made = make<WlkVulkanViewTargets>();
+  made.color = &color;
+  made.colorInput = inPlace ? &color : nullptr;
+  return made;
+}
+
+FrameCounts EngineScene::renderFrame() {
+  auto info = make<WlkFrameInfo>();
+  info.completedFrameIndex = frame_;
+  info.frameIndex = ++frame_;
+  check(wlkBeginFrame(context, &info));
+  const WlkVulkanImage color = describe(*target_, VK_IMAGE_LAYOUT_GENERAL);
+  const WlkVulkanViewTargets images = targets(color);
+  FrameCounts counts;
+  spy.run([&](VkCommandBuffer commands) {
+    SpyDevice::counts() = {};
+    check(wlkVulkanCmdUpdate(context, commands));
+    counts.update = SpyDevice::counts();
+    SpyDevice::counts() = {};
+    check(wlkVulkanCmdRenderView(context, commands, view, &images));
+    counts.view = SpyDevice::counts();
+  });
+  return counts;
+}
+
+Image EngineScene::read() const {
+  target_->read(VK_IMAGE_LAYOUT_GENERAL);
+  Image image{options().width, options().height, {}};
+  image.rgba.resize(size_t{4} * image.width * image.height);
+  std::memcpy(image.rgba.data(), target_->bytes(), image.rgba.size() * sizeof(float));
+  return image;
+}
+
+}  // namespace welkin::test

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// A scene in an engine-device context on a spied device: renders a frame of one view and tells what
+// the library recorded.
+#pragma once
+
+#include <welkin/welkin_vulkan.h>
+
+#include <optional>
+
+#include "support/headless_scene.hpp"
+#include "support/spy_device.hpp"
+
+namespace welkin::test {
+
+struct FrameCounts {
+  VulkanCounts update;  // by wlkVulkanCmdUpdate
+  VulkanCounts view;    // by wlkVulkanCmdRenderView
+};
+
+// The spied device comes first in construction and last in destruction.
+struct SpiedEngine {
+  SpyDevice spy;
+};
+
+class EngineScene : private SpiedEngine, public SceneBuilder {
+ public:
+  // The target has the view's size and RGBA32F.
+  explicit EngineScene(const SceneOptions& options = {});
+  ~EngineScene();
+
+  const SpyDevice& device() const { return spy; }
+  const SpyImage& target() const { return *target_; }
+  uint64_t frame() const { return frame_; }
+  // Composites onto the target itself, which keeps what it has where nothing is drawn.
+  bool inPlace = false;
+
+  WlkVulkanImage describe(const SpyImage& image, VkImageLayout layout) const;
+  // What the frame's wlkVulkanCmdRenderView gets; `color` must live for the call.
+  WlkVulkanViewTargets targets(const WlkVulkanImage& color) const;
+  // wlkBeginFrame, update and view in one command buffer, submitted and waited for.
+  FrameCounts renderFrame();
+  Image read() const;
+
+ private:
+  std::optional<SpyImage> target_;
+  uint64_t frame_ = 0;
+};
+
+}  // namespace welkin::test
