@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
+# shellcheck shell=bash
 # Sourced by the scripts beside it: repository root, lavapipe as the only Vulkan device, build step.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-cd "$root"
+cd "$root" || exit 1
 
 say() { printf '\n== %s\n' "$*"; }
 

@@ -11,6 +11,10 @@ real safeExp(real x) {
   return x < -EXP_CUT ? real(0.0f) : exp(clamp(x, real(-80.0f), real(80.0f)));
 }
 
+vec3 safeExp3(vec3 x) {
+  return vec3(safeExp(x.x), safeExp(x.y), safeExp(x.z));
+}
+
 // ((x/2) coth(x/2) - 1) / x^2 as a function of z = x^2 in [0, 0.26], within 1.2e-15 (Chebyshev
 // fit). Even in x, so that 1 - e^-x needs half the terms of its Taylor series.
 const real COTH_0 = real(0.083333333333332127);

@@ -73,6 +73,24 @@ vk::DeviceInfo deviceInfoOf(const WlkVulkanDeviceInfo& info) {
   return result;
 }
 
+void checkQueueFamily(const vk::Device& device, std::pmr::memory_resource* memory) {
+  const uint32_t index = device.info().queueFamilyIndex;
+  uint32_t count = 0;
+  device.vk().GetPhysicalDeviceQueueFamilyProperties(device.info().physicalDevice, &count, nullptr);
+  if (index >= count) {
+    fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_VULKAN_DEVICE_INFO, "queueFamilyIndex",
+         "WlkVulkanDeviceInfo::queueFamilyIndex is %u, the device has %u families", index, count);
+  }
+  std::pmr::vector<VkQueueFamilyProperties> families(count, memory);
+  device.vk().GetPhysicalDeviceQueueFamilyProperties(device.info().physicalDevice, &count,
+                                                     families.data());
+  constexpr VkQueueFlags NEEDED = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+  if ((families[index].queueFlags & NEEDED) != NEEDED) {
+    fail(WLK_ERROR_MISSING_FEATURE, WLK_STRUCT_VULKAN_DEVICE_INFO, "queueFamilyIndex",
+         "queue family %u lacks graphics or compute", index);
+  }
+}
+
 // A number for a pool's handles that none of the last 65535 pools of the process had: a handle of
 // another kind, or of a destroyed context whose address was handed out again, is never found.
 uint16_t nextTag() {
@@ -116,6 +134,7 @@ WlkContext_T::WlkContext_T(const WlkContextInfo& contextInfo)
     mode = WLK_MODE_HEADLESS;
   } else if (chain.device != nullptr) {
     device.emplace(deviceInfoOf(*chain.device), &memory);
+    checkQueueFamily(*device, &memory);
     mode = WLK_MODE_ENGINE_DEVICE;
   }
   if (device) {

@@ -191,6 +191,13 @@ void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
   input.layers = view.info.layers;
   input.sky = c.air.sky.has_value();
   input.fog = c.fogActive();
+  if (input.sky) {
+    input.airScaleHeight = c.air.sky->scaleHeight;
+  }
+  if (input.fog) {
+    input.fogBaseAltitude = c.air.fog->baseAltitude;
+    input.fogScaleHeight = c.air.fog->scaleHeight;
+  }
   input.planet = c.air.planet;
   if (c.air.light) {
     const WlkLight& light = *c.air.light;

@@ -2,6 +2,8 @@
 // The engine's device: requirements, its images, recording into its command buffers.
 #include <welkin/welkin_vulkan.h>
 
+#include <algorithm>
+
 #include "api/context.hpp"
 
 namespace {
@@ -108,6 +110,28 @@ WlkContext_T& requireFrame(WlkContext context, VkCommandBuffer commands, const c
   return c;
 }
 
+// Whether every image that descriptors will name has been written once.
+bool everythingUploaded(const WlkContext_T& c) {
+  const auto blank = [](const vk::Image& image) {
+    return image && image.layout == VK_IMAGE_LAYOUT_UNDEFINED;
+  };
+  if (blank(c.dummy2d)) {
+    return false;
+  }
+  for (uint32_t i = 0; i < c.volumes.slotCount(); ++i) {
+    const VolumeState* volume = c.volumes.at(i);
+    if (volume == nullptr) {
+      continue;
+    }
+    if (blank(volume->table) ||
+        std::any_of(volume->fields.begin(), volume->fields.end(),
+                    [&](const FieldState& field) { return blank(field.image); })) {
+      return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 namespace welkin {
@@ -150,6 +174,10 @@ WlkResult wlkVulkanSetVolumeImage(WlkContext context, WlkVolume volume, uint32_t
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
     VolumeState& state = c.volume(volume);
+    if (c.mode != WLK_MODE_ENGINE_DEVICE) {
+      fail(WLK_ERROR_WRONG_STATE, 0, "context",
+           "wlkVulkanSetVolumeImage needs an engine-device context");
+    }
     checkRange(WLK_STRUCT_VULKAN_IMAGE, "field", field, 0, state.fieldCount - 1);
     if (image == nullptr) {
       state.fields[field].external.reset();
@@ -225,7 +253,7 @@ WlkResult wlkVulkanCmdRenderView(WlkContext context, VkCommandBuffer commandBuff
     if (state.lastFrame == c.frameIndex) {
       fail(WLK_ERROR_WRONG_STATE, 0, "view", "the view was recorded in this frame already");
     }
-    if (c.dummy2d.layout == VK_IMAGE_LAYOUT_UNDEFINED) {
+    if (!everythingUploaded(c)) {
       fail(WLK_ERROR_WRONG_STATE, 0, "context", "record wlkVulkanCmdUpdate before the views");
     }
     const ViewTargets images = importTargets(c, state, t);

@@ -10,14 +10,31 @@
 namespace welkin {
 namespace {
 
-// Air above this altitude scatters less than 4e-6 of sea level (scale height 8 km): a light that
-// does not reach it lights nothing.
-constexpr double AIR_TOP = 100e3;
+// Angle between the horizontal and the horizon at altitude `h`. rad.
+double horizonDip(double h, double radius) {
+  return std::acos(radius / (radius + std::max(h, 0.0)));
+}
 
-// Whether a light with zenith cosine `mu` at altitude `h` stands, with its disk, above the horizon.
-bool aboveHorizon(double mu, double h, double radius, double angularRadius) {
-  const double dip = std::acos(radius / (radius + std::max(h, 0.0)));
-  return std::asin(std::clamp(mu, -1.0, 1.0)) + angularRadius > -dip;
+// Whether a light with zenith cosine `mu`, its disk included, stands above the horizon of something
+// at most `h` high and `reach` rad (seen from the planet's centre) away.
+bool aboveHorizon(double mu, double h, double reach, double radius, double angularRadius) {
+  return std::asin(std::clamp(mu, -1.0, 1.0)) + angularRadius > -(horizonDip(h, radius) + reach);
+}
+
+// Where the model text ends the highest layer (clipToAir). m.
+double airTop(const PlanInput& in) {
+  const double extent = model::f64::LAYER_EXTENT;
+  return std::max(in.sky ? extent * in.airScaleHeight : 0.0,
+                  in.fog ? std::max(in.fogBaseAltitude, 0.0) + extent * in.fogScaleHeight : 0.0);
+}
+
+// The eye sees air as far as its own horizon and that of the air's top lie apart, and the light
+// reaches it there: in twilight long after the light has set for the eye.
+bool lightReachesAir(const PlanInput& in, const PlanetFrame& eye) {
+  const double radius = in.planet.radius;
+  const double top = std::max(airTop(in), eye.altitude);
+  const double reach = horizonDip(eye.altitude, radius) + horizonDip(top, radius);
+  return aboveHorizon(glm::dot(eye.up, in.toLight), top, reach, radius, in.lightAngularRadius);
 }
 
 std::array<glm::dvec3, 8> cornersOf(const glm::dmat4x3& box) {
@@ -94,6 +111,26 @@ PixelRect unite(const PixelRect& a, const PixelRect& b) {
   return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
+// Whether the light may reach the box (`corners` relative to the eye, at most `top` m high) or the
+// air between it and the eye, which the volume's passes shade as well.
+bool lightReachesVolume(const PlanInput& in, const std::array<glm::dvec3, 8>& corners, double top) {
+  const double radius = in.planet.radius;
+  const glm::dvec3 middle = 0.5 * (corners[0] + corners[7]);
+  const PlanetFrame frame = planetFrameAt(in.planet, middle + in.eye);
+  // The local up turns by this from the middle to any other point: asin x <= 1.6 x.
+  double reach = 0;
+  for (const glm::dvec3& corner : corners) {
+    reach = std::max(reach, 1.6 * glm::length(corner - middle) / radius);
+  }
+  if ((in.sky && (in.layers & WLK_LAYER_SKY) != 0) ||
+      (in.fog && (in.layers & WLK_LAYER_FOG) != 0)) {
+    const PlanetFrame eye = planetFrameAt(in.planet, in.eye);
+    reach += std::acos(std::clamp(glm::dot(frame.up, eye.up), -1.0, 1.0));
+    top = std::max(top, std::min(eye.altitude, airTop(in)));
+  }
+  return aboveHorizon(glm::dot(frame.up, in.toLight), top, reach, radius, in.lightAngularRadius);
+}
+
 PlannedVolume planVolume(const PlanInput& in, const PlanVolume& volume) {
   PlannedVolume result{};
   result.id = volume.id;
@@ -127,9 +164,7 @@ PlannedVolume planVolume(const PlanInput& in, const PlanVolume& volume) {
     top = std::max(top, planetFrameAt(in.planet, corner + in.eye).altitude);
   }
   const glm::dvec3 middle = box * glm::dvec4(0.5, 0.5, 0.5, 1.0);
-  const PlanetFrame frame = planetFrameAt(in.planet, middle + in.eye);
-  result.lit = in.light && (aboveHorizon(glm::dot(frame.up, in.toLight), top, in.planet.radius,
-                                         in.lightAngularRadius));
+  result.lit = in.light && lightReachesVolume(in, corners, top);
   if (!result.lit) {
     if (in.quality.noSkip && in.light) {
       result.lit = true;
@@ -253,10 +288,7 @@ void makePlan(const PlanInput& in, Plan& plan) {
   plan.air = in.sky && (in.layers & WLK_LAYER_SKY) != 0;
   plan.fog = in.fog && (in.layers & WLK_LAYER_FOG) != 0;
   const PlanetFrame eye = planetFrameAt(in.planet, in.eye);
-  plan.light =
-      in.light && (in.quality.noSkip ||
-                   aboveHorizon(glm::dot(eye.up, in.toLight), std::max(eye.altitude, AIR_TOP),
-                                in.planet.radius, in.lightAngularRadius));
+  plan.light = in.light && (in.quality.noSkip || lightReachesAir(in, eye));
   plan.disk =
       plan.air && in.light && (in.layers & WLK_LAYER_SUN_DISK) != 0 && in.lightAngularRadius > 0;
   plan.ground = plan.air && (in.layers & WLK_LAYER_GROUND) != 0;

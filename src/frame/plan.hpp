@@ -64,8 +64,11 @@ struct PlanInput {
   uint64_t layers = 0;
   bool sky = false;
   bool fog = false;
-  bool light = false;      // a light with irradiance is set
-  bool mustWrite = false;  // the targets need a value even if nothing is drawn
+  double airScaleHeight = 0;  // m, where `sky`
+  double fogBaseAltitude = 0;
+  double fogScaleHeight = 0;  // m, where `fog`
+  bool light = false;         // a light with irradiance is set
+  bool mustWrite = false;     // the targets need a value even if nothing is drawn
   WlkPlanet planet{};
   glm::dvec3 toLight{0, 1, 0};
   double lightAngularRadius = 0;

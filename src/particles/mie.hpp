@@ -46,8 +46,9 @@ using MieTerm = std::array<double, 6>;
 // The series of one sphere. solve() keeps its memory, so that one object serves many sizes.
 class MieSphere {
  public:
-  // x = 2 pi r / wavelength, 0 < x <= 20 000 tested from 0.01; m as above, |m - 1| > 0.
-  // Against long double: |a_n|, |b_n| to 1e-15 (x <= 1) .. 3e-12 (x = 20 000) absolute.
+  // x = 2 pi r / wavelength, tested from 0.01 to 20 000; m as above. a_n and b_n are those of an x
+  // and an m within 64 roundings of the arguments, plus 16 (Mie.CoefficientsMatch...); the series
+  // ends where |a_n| < 3e-7, which bounds the error of an intensity at any angle by 4e-6 of itself.
   void solve(double x, std::complex<double> m);
 
   MieEfficiencies efficiencies() const;

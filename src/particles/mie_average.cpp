@@ -20,7 +20,7 @@ constexpr double PI = std::numbers::pi;
 constexpr double GOLDEN = 0.6180339887498949;
 constexpr size_t CHUNKS = 16;          // fixed, so that sums do not depend on the threads
 constexpr double MIN_PER_SPREAD = 64;  // nodes of one wavelength
-constexpr size_t BACK_ANGLES = MieAngles::LANES;
+constexpr size_t BACK_ANGLES = 2 * MieAngles::LANES;
 
 // Sums of weight times cross-section (um^2) over the nodes of one chunk, for one distribution.
 struct Sums {
@@ -45,6 +45,7 @@ struct Node {
   double radius_um;
   size_t sample;
   size_t weight;  // index of the first of its weights
+  bool alone;     // the only node of a monodisperse distribution
 };
 
 struct Job {
@@ -89,11 +90,11 @@ std::vector<Sums> runChunk(const Job& job, size_t chunk) {
     sphere.solve(x, sample.index);
     sphere.intensities(job.angles, intensity);
     const MieEfficiencies q = sphere.efficiencies();
-    // Enough angles that all nodes together have 16 x: a sphere alone has 2 x of structure.
-    const auto needed = static_cast<size_t>(16 * x / static_cast<double>(job.nodes.size()));
+    // A sphere alone has 2 x waves over 180 degrees; many resolve them together.
+    const double needed = node.alone ? 8 * x : 40000 / static_cast<double>(job.nodes.size());
+    const size_t backCount = std::max(BACK_ANGLES, static_cast<size_t>(needed));
     const double offset = std::fmod((static_cast<double>(i) + 0.5) * GOLDEN, 1.0);
-    const double back =
-        backwardIntensity(sphere, std::max(BACK_ANGLES, needed), offset, backAngles) / (k * k);
+    const double back = backwardIntensity(sphere, backCount, offset, backAngles) / (k * k);
     const double area = PI * node.radius_um * node.radius_um;
     for (size_t d = 0; d < job.distributions; ++d) {
       const double weight = job.weights[node.weight + d];
@@ -154,6 +155,8 @@ Job makeJob(std::span<const SizeDistribution> sizes, std::span<const SpectralSam
   }
   const auto samples = static_cast<double>(spectrum.size());
   const double logStep = narrowest / std::max(nodesPerSpread / samples, MIN_PER_SPREAD);
+  const auto alone = static_cast<size_t>(std::count_if(
+      sizes.begin(), sizes.end(), [](const auto& one) { return logSpread(one) == 0; }));
   Job job;
   job.spectrum = spectrum;
   job.distributions = sizes.size();
@@ -163,7 +166,7 @@ Job makeJob(std::span<const SizeDistribution> sizes, std::span<const SpectralSam
     const double offset = std::fmod((static_cast<double>(s) + 0.5) * GOLDEN, 1.0);
     const SizeNodes nodes = sizeNodes(sizes, logStep, offset);
     for (size_t i = 0; i < nodes.radius_um.size(); ++i) {
-      job.nodes.push_back({nodes.radius_um[i], s, job.weights.size()});
+      job.nodes.push_back({nodes.radius_um[i], s, job.weights.size(), i < alone});
       for (size_t d = 0; d < sizes.size(); ++d) {
         job.weights.push_back(nodes.weight[i * sizes.size() + d] * spectrum[s].weight);
       }

@@ -44,7 +44,7 @@ struct MieAverage {
   double extinction_um2 = 0;   // the same
   double efficiency = 0;       // scattering / mean geometric cross-section
   double asymmetry = 0;        // mean cosine
-  double forwardFraction = 0;  // of the energy, angles below 90 degrees, without the disk
+  double forwardFraction = 0;  // energy below 90 degrees, without the disk; to 1e-4
 };
 
 // Averages for every distribution at once, from the same spheres: 16 overlapping distributions

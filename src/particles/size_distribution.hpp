@@ -38,8 +38,8 @@ SizeRange sizeRange(const SizeDistribution& sizes);
 
 // Nodes of the trapezoidal rule in ln r over all ranges: the mean of f(r) over distribution d is
 // the sum over i of weight[i * distributions + d] f(radius_um[i]); for a smooth f it converges
-// faster than any power. Every monodisperse distribution adds one node of weight 1. ln r of the
-// other nodes is (integer + offset) logStep.
+// faster than any power. Every monodisperse distribution adds one node of weight 1, before the
+// others. ln r of the other nodes is (integer + offset) logStep.
 struct SizeNodes {
   std::vector<double> radius_um;
   std::vector<double> weight;

@@ -30,7 +30,8 @@ double depthNode(double s);
 // chi_l = 2 pi * integral of P(mu) P_l(mu), l = 0 .. chi.size() - 1, closed form.
 void legendreMoments(const FogPhaseParams& phase, std::span<double> chi);
 
-// The table of one medium. Never negative and without truncation error for any g: 1e-12 relative.
+// The table of one medium, 2 to 5 ms. Never negative, and without truncation error for any g: 2e-13
+// relative to direct Legendre sums for 5..50 um (the test holds 1e-9).
 void buildForwardScattering(const FogPhaseParams& phase, ForwardScatteringTable& table);
 
 // One entry: source distribution in 1/sr at y = 1 - cos, and F(n).

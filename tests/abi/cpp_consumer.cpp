@@ -3,12 +3,15 @@
 // time with WELKIN_NO_EXCEPTIONS and -fno-exceptions.
 #include <welkin/welkin_vulkan.h>
 
+#include <cstdint>
 #include <cstdio>
+#include <set>
 #include <type_traits>
 #include <utility>
 #include <welkin/welkin.hpp>
 
 static int failures = 0;
+static std::set<std::uint32_t> seenTypes;
 #define REQUIRE(condition) require((condition), #condition, __LINE__)
 
 static void require(bool condition, const char* text, int line) {
@@ -23,6 +26,7 @@ static void makeSetsTheHead() {
   const T structure = welkin::make<T>();
   REQUIRE(structure.sType == welkin::StructType<T>::VALUE);
   REQUIRE(structure.structSize == sizeof(T) && structure.next == nullptr);
+  REQUIRE(seenTypes.insert(structure.sType).second);  // no two structures share an sType
 }
 
 template <class First, class Second, class... Rest>

@@ -169,10 +169,38 @@ TEST_F(Skip, AVolumeAtTheEdgeOfTheViewIsMarchedInItsRectangleOnly) {
 TEST_F(Skip, WithTheSunFarBelowTheHorizonLightIsNotMarched) {
   scene.setSky();
   scene.addBall(0.01f);
-  for (const double elevation_deg : {-20.0, -90.0}) {
+  for (const double elevation_deg : {-40.0, -90.0}) {
     scene.setSun(elevation_deg, 20);
     EXPECT_EQ(render().view.dispatches, EYE_AND_COMPOSITE);
     expectReasons(WLK_REASON_NO_LIGHT, WLK_REASON_NEEDED, WLK_REASON_NEEDED);
+    expectSameWithoutSkipping();
+  }
+}
+
+TEST_F(Skip, ThroughTwilightNothingIsLostBeforeItIsBlack) {
+  scene.setSky();
+  scene.setFog(1e-5f, 2000.0f);
+  scene.addBall(0.01f);
+  for (const double elevation_deg :
+       {1.0, -1.0, -3.0, -7.0, -9.0, -12.0, -16.0, -20.0, -25.0, -35.0}) {
+    SCOPED_TRACE(elevation_deg);
+    scene.setSun(elevation_deg, 20);
+    render();
+    expectSameWithoutSkipping();
+  }
+}
+
+TEST_F(Skip, AVolumeInTheNightBehindAirInTheSunKeepsThatAir) {
+  // From 300 km up, down to a cloud for which the sun has set; the air halfway still has it.
+  scene.setSky();
+  const WlkVolume volume = scene.addBall(0.001f);
+  const auto below = boxTransform({-40e3, 500, -40e3}, {80e3, 4e3, 80e3});
+  ASSERT_EQ(wlkSetVolumeTransform(scene.context, volume, below.data()), WLK_SUCCESS);
+  scene.setCamera({0, 300e3, 0}, 0, -90);
+  for (const double elevation_deg : {-4.0, -7.0}) {
+    scene.setSun(elevation_deg, 20);
+    render();
+    EXPECT_GT(scene.read().mean(), 0.0);
     expectSameWithoutSkipping();
   }
 }

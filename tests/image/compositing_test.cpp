@@ -13,7 +13,7 @@ namespace {
 
 using namespace image_test;
 
-constexpr int SIZE = 40;
+constexpr int SIZE = 32;
 constexpr double SLICING_BOUND = 0.01;  // a third of the bound at 128 slices: angles away from 90
 
 std::vector<double> redTransmittance(const Picture& picture) {
@@ -57,9 +57,9 @@ TEST(Compositing, PixelsStopAtTheSurface) {
   std::vector<double> lengths;
   for (int y = 0; y < SIZE; ++y) {
     for (int x = 0; x < SIZE; ++x) {
-      const bool hole = y > 30;
-      const bool ball = (x - 12) * (x - 12) + (y - 12) * (y - 12) < 60;
-      const double distance = ball ? 1450 : 1250 + 12 * x;
+      const bool hole = y > 24;
+      const bool ball = (x - 9) * (x - 9) + (y - 9) * (y - 9) < 40;
+      const double distance = ball ? 1450 : 1250 + 15 * x;
       lengths.push_back(hole ? 1e30 : distance);
       depth.push_back(hole ? 0.0f : s.camera.depthAt(x, y, SIZE, distance));
     }

@@ -128,6 +128,33 @@ TEST(Handles, OfADestroyedContextAreForeignToItsSuccessor) {
   }
 }
 
+// Never hands memory out twice and never gives it back: what lay there stays readable.
+struct KeepingAllocator {
+  alignas(64) std::array<unsigned char, 1 << 16> memory{};
+  uint64_t used = 0;
+  WlkAllocator callbacks() {
+    return {this,
+            [](void* user, uint64_t size, uint64_t alignment) -> void* {
+              auto& self = *static_cast<KeepingAllocator*>(user);
+              self.used = (self.used + alignment - 1) / alignment * alignment + size;
+              return self.used <= self.memory.size() ? &self.memory[self.used - size] : nullptr;
+            },
+            [](void*, void*, uint64_t, uint64_t) {}};
+  }
+};
+
+TEST(Handles, ADestroyedContextWhoseMemoryIsStillThereIsRefused) {
+  KeepingAllocator memory;
+  WlkContext destroyed = nullptr;
+  {
+    CpuContext cpu(memory.callbacks());
+    destroyed = cpu.context;
+    EXPECT_EQ(wlkSetSky(destroyed, nullptr), WLK_SUCCESS);
+  }
+  EXPECT_FAILS(wlkSetSky(destroyed, nullptr), WLK_ERROR_INVALID_HANDLE, "context");
+  wlkDestroyContext(destroyed);
+}
+
 TEST(Handles, NullContextsAreRefusedByEveryFunction) {
   Calls all = volumeCalls();
   for (const Calls& more : {viewCalls(), mediumCalls()}) {

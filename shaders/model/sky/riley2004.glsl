@@ -2,7 +2,10 @@
 // Once-scattered light and optical depth of air and one fog layer on a spherical planet, RGB, per
 // unit irradiance of the light (1/sr). Follows [R04] 4.1; rewritten: the two-ended segments of
 // segment.glsl are fed with spherical light depths, so few segments replace the flat closed form.
-// Both species are exponential in altitude. Errors against quadrature: tests/unit/sky_test.cpp.
+// Both species are exponential in altitude. Errors against quadrature (tests/unit/sky_test.cpp), p95
+// and worst of random rays: air to 50 km 0.1 and 0.2 %, sky with suns to 80 degrees 0.3 and 1 %, to
+// 88 degrees 2 and 4 %; with fog 0.5 and 2 %, grazing fog from above 1 and 15 %. Float follows double
+// to 1e-4.
 
 struct Air {
   real planetRadius;
@@ -27,18 +30,12 @@ struct AirResult {
   vec3 opticalDepth;
 };
 
-// Exponent of the relative density is kept in this range: e^-60 is vacuum without subnormal
-// numbers, e^30 times any extinction is opaque.
-const real LAYER_VACUUM = real(-60.0f);
-const real LAYER_SOLID = real(30.0f);
-const real VACUUM_DENSITY = real(1e-27);
 // Scale heights above the base after which a layer counts as ended: e^-30 of 1e6 optical depths.
 const real LAYER_EXTENT = real(30.0f);
-const real SQRT_PI_HALF = real(0.886226925452758);
 // Rays may go this far below the lower of sea level and origin before they are stopped, in m.
 const real UNDERGROUND = real(1000.0f);
 
-// Lower-order parts of a ray inside the layers.
+// The part of a ray inside the layers.
 struct AirPath {
   real altitude;
   real viewMu;
@@ -50,14 +47,6 @@ struct AirPath {
   real lowestRadius;
 };
 
-// One exponential layer at one point of a ray.
-struct LayerPoint {
-  real exponent;
-  real density;
-  // Depth per unit extinction from here along the ray to infinity, away from the lowest point. m.
-  real column;
-};
-
 // A point of a ray.
 struct AirPoint {
   real distance;
@@ -65,27 +54,6 @@ struct AirPoint {
   LayerPoint air;
   LayerPoint fog;
 };
-
-real layerExponent(real altitude, real base, real scaleHeight) {
-  return (base - altitude) / scaleHeight;
-}
-
-real layerDensity(real exponent) {
-  return exp(clamp(exponent, LAYER_VACUUM, LAYER_SOLID));
-}
-
-// Depth per unit extinction (m) from radius r towards a direction with cosine mu to the up: density
-// H sqrt(pi X/2) erfcx(sqrt(X/2) |mu|), X = r/H; for mu < 0 twice the lowest point's horizontal
-// value less the opposite direction. Within 0.2 % of the sphere's integral for X > 400.
-real layerColumn(real exponent, real density, real scaleHeight, real radius, real mu) {
-  real width = sqrt(real(2.0f) * radius * scaleHeight);
-  real up = density * erfcxPositive(radius * abs(mu) / width);
-  real sinus = sqrt(max((real(1.0f) - mu) * (real(1.0f) + mu), real(0.0f)));
-  real drop = radius * mu * mu / (scaleHeight * (real(1.0f) + sinus));
-  real down = real(2.0f) * sqrt(sinus) * layerDensity(exponent + drop) - up;
-  // At the nadir the chord is no exponential column; keep it monotone and never negative.
-  return SQRT_PI_HALF * width * (mu < real(0.0f) ? max(down, up) : up);
-}
 
 // Area fraction of a disk of half angle `angularRadius` above the geometric horizon, 0..1: within
 // 1.2e-3 of the circle's segment (odd polynomial of degree 5). The sine of the light's height above
@@ -148,15 +116,6 @@ AirPath clipToAir(Air air, AirRay ray, real distance) {
   return path;
 }
 
-LayerPoint layerPoint(real altitude, real base, real scaleHeight, real radius, real fromLowest) {
-  LayerPoint point;
-  point.exponent = min(layerExponent(altitude, base, scaleHeight), LAYER_SOLID);
-  point.density = layerDensity(point.exponent);
-  real width = sqrt(real(2.0f) * radius * scaleHeight);
-  point.column = SQRT_PI_HALF * width * point.density * erfcxPositive(abs(fromLowest) / width);
-  return point;
-}
-
 AirPoint airPoint(Air air, AirPath path, real t) {
   AirPoint point;
   point.distance = t;
@@ -207,41 +166,6 @@ vec3 lightOpticalDepth(Air air, real altitude, real lightMu) {
     point.fog.density = layerDensity(point.fog.exponent);
   }
   return depthOfColumns(air, lightColumns(air, point, lightMu));
-}
-
-// A layer between two points of a ray.
-struct LayerSpan {
-  // Depth per unit extinction. m.
-  real column;
-  // How far the layer's centre lies before the middle, as a share of the span: -0.5..0.5.
-  real lean;
-};
-
-// Two points on the same side of the ray's lowest one, at most `sag` m above the ray's chord.
-// Nearly straight: logarithmic mean of the densities, all from c = (b/2) coth(b/2), b the
-// difference of exponents, times the curvature's series in g sag/H, g = 8 (c - 1) / b^2 the first
-// moment (error <= 5e-4 at the switch). Else: difference of columns.
-const real CURVATURE_2 = real(0.6);
-const real CURVATURE_3 = real(0.857);
-LayerSpan layerSpan(LayerPoint a, LayerPoint b, real scaleHeight, real length, real sag) {
-  real rise = a.exponent - b.exponent;
-  real size = abs(rise);
-  real z = rise * rise;
-  real sum = a.density + b.density;
-  real fall = max(abs(a.density - b.density), VACUUM_DENSITY);
-  real slope = size < real(0.5f) ? cothSeries(z)
-                                 : (real(0.5f) * size * sum / fall - real(1.0f)) / z;
-  real g = min(real(8.0f) * slope, real(1.0f));
-  real s = sag / scaleHeight;
-  real p = g * s;
-  real p2 = (real(1.0f) - CURVATURE_2 * g) * p;
-  real p3 = (real(1.0f) - CURVATURE_3 * g) * p;
-  real curvature = real(1.0f) + p * (real(1.0f) + p2 * (real(1.0f) + p3));
-  real straight = length * real(0.5f) * sum / (real(1.0f) + z * slope) * curvature;
-  LayerSpan span;
-  span.column = s < real(0.25f) ? straight : abs(a.column - b.column);
-  span.lean = clamp(rise * slope, real(-0.5f), real(0.5f));
-  return span;
 }
 
 // Both layers between two points.
@@ -329,7 +253,7 @@ real stopDistance(Stops stops, real u) {
 }
 
 // Distances at which the ray crosses the edge of the planet's shadow, behind the planet as seen
-// from the light; out of [0, length] or beyond if there is none.
+// from the light; -1 or out of reach if there is none.
 vec2 shadowStops(Air air, AirPath path) {
   real radius = air.planetRadius + path.altitude;
   real behind = radius * path.sunMu;
@@ -350,56 +274,6 @@ vec2 shadowStops(Air air, AirPath path) {
 // The next stop strictly ahead: `stop` if it lies between t and `nearest`, else `nearest`.
 real nearerStop(real stop, real t, real nearest) {
   return stop > t && stop < nearest ? stop : nearest;
-}
-
-// Logarithmic mean of e0 = e^-t0 and e1 = e^-t1, with rise = t1 - t0: segmentInscatter per unit
-// depth, with exponentials that neighbouring segments share.
-real meanTransmittance(real e0, real e1, real rise) {
-  return abs(rise) < real(0.5f) ? e0 * phi1Small(rise) : (e0 - e1) / rise;
-}
-
-vec3 meanTransmittance3(vec3 e0, vec3 e1, vec3 rise) {
-  vec3 mean;
-  mean.x = meanTransmittance(e0.x, e1.x, rise.x);
-  mean.y = meanTransmittance(e0.y, e1.y, rise.y);
-  mean.z = meanTransmittance(e0.z, e1.z, rise.z);
-  return mean;
-}
-
-vec3 safeExp3(vec3 x) {
-  return vec3(safeExp(x.x), safeExp(x.y), safeExp(x.z));
-}
-
-// One end of a segment: light depth + view depth in front of it, and its exponential.
-struct SegmentEnd {
-  vec3 depth;
-  vec3 transmittance;
-};
-
-// Mean transmittance for a layer whose centre lies `late` (share of the segment, -1..1) behind the
-// other layer's, which adds `other` to the depth over the segment. Of it the share |2 late| is
-// passed before (late > 0) or after (late < 0) all of the layer, the rest evenly along it.
-vec3 displacedMean(SegmentEnd a, SegmentEnd b, vec3 other, real late) {
-  real share = clamp(real(2.0f) * late, real(-1.0f), real(1.0f));
-  vec3 moved = (share > real(0.0f) ? a.depth : b.depth) + other * share;
-  vec3 e = safeExp3(-moved);
-  vec3 e0 = share > real(0.0f) ? e : a.transmittance;
-  vec3 e1 = share > real(0.0f) ? b.transmittance : e;
-  return meanTransmittance3(e0, e1, b.depth - a.depth - other * abs(share));
-}
-
-// Where along a segment (-0.5..0.5 from its middle) the light of a layer comes from whose depth
-// changes by `own` over the segment: at the depth share y with mean weight e^(-own x), close to
-// 1/2 - L(own/2)/2, L(x) = x / (2 + sqrt(1 + x^2)) near Langevin's function; y taken back to the
-// distance through the exponential profile, by its second-order term where that is nearly flat.
-real layerCentre(LayerPoint a, LayerPoint b, real own) {
-  real x = real(0.5f) * own;
-  real y = real(0.5f) - real(0.5f) * x / (real(2.0f) + sqrt(real(1.0f) + x * x));
-  real growth = max(b.exponent, LAYER_VACUUM) - max(a.exponent, LAYER_VACUUM);
-  real density = a.density + (b.density - a.density) * y;
-  real steep = (log(density) - max(a.exponent, LAYER_VACUUM)) / growth;
-  real flat_ = y + real(0.5f) * growth * y * (real(1.0f) - y);
-  return (abs(growth) < real(0.5f) ? flat_ : steep) - real(0.5f);
 }
 
 // Optical depth along a ray of `distance` m (may be infinite; the ground is the caller's to clip).
@@ -480,10 +354,11 @@ AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, real fo
     vec3 light;
     if (AIR_ENABLED && FOG_ENABLED) {
       vec2 rise = nextColumns - hereColumns;
-      real late = span.fog.lean - span.air.lean;
-      real fogLate = layerCentre(here.fog, next.fog, air.fogExtinction * rise.y) + span.air.lean;
-      light = airPart * displacedMean(hereEnd, nextEnd, vec3(air.fogExtinction * rise.y), late) +
-              fogPart * displacedMean(hereEnd, nextEnd, air.airScattering * rise.x, fogLate);
+      real fogOwn = air.fogExtinction * rise.y;
+      real airShare = real(2.0f) * (span.fog.lean - span.air.lean);
+      real fogShare = displacement(here.fog, next.fog, fogOwn, span.air.lean);
+      light = airPart * displacedMean(hereEnd, nextEnd, vec3(fogOwn), airShare) +
+              fogPart * displacedMean(hereEnd, nextEnd, air.airScattering * rise.x, fogShare);
     } else {
       light = (airPart + fogPart) * meanTransmittance3(hereEnd.transmittance, nextEnd.transmittance,
                                                        nextEnd.depth - hereEnd.depth);

@@ -24,8 +24,8 @@ real segmentInscatter(real nearSunDepth, real farSunDepth, real opticalDepth) {
   return tau * safeExp(-min(a, b)) * phi1(abs(b - a));
 }
 
-// Highest exponent of the density's growth along a downward ray, which ends there: what lies deeper
-// is opaque in any case, e^40 = 2e17.
+// Highest exponent of the density's growth along a downward ray, which ends there: deeper, every
+// layer is opaque, e^40 = 2e17.
 const real GROWTH_CAP = real(40.0f);
 
 // Optical depth of `distance` (<= DEPTH_CAP) m with extinction (1/m) at the near end, heightRatio =
@@ -48,4 +48,139 @@ Segment flatExponentialSegment(real extinctionAtEye, real inverseScaleHeight, re
   real lit = segmentInscatter(nearDepth, nearDepth * safeExp(min(-rise, GROWTH_CAP)), result.opticalDepth);
   result.inscatter = lightSlope > real(0.0f) ? lit : real(0.0f);
   return result;
+}
+
+// ---- Exponential layers around a sphere, in segments that share their ends.
+
+// Exponent of the relative density is kept in this range: e^-60 is vacuum without subnormal
+// numbers, e^30 times any extinction is opaque.
+const real LAYER_VACUUM = real(-60.0f);
+const real LAYER_SOLID = real(30.0f);
+const real VACUUM_DENSITY = real(1e-27);
+const real SQRT_PI_HALF = real(0.886226925452758);
+
+// One exponential layer at one point of a ray.
+struct LayerPoint {
+  real exponent;
+  real density;
+  // Depth per unit extinction from here along the ray to infinity, away from the lowest point. m.
+  real column;
+};
+
+real layerExponent(real altitude, real base, real scaleHeight) {
+  return (base - altitude) / scaleHeight;
+}
+
+real layerDensity(real exponent) {
+  return exp(clamp(exponent, LAYER_VACUUM, LAYER_SOLID));
+}
+
+// Depth per unit extinction (m) from radius r towards a direction with cosine mu to the up: density
+// H sqrt(pi X/2) erfcx(sqrt(X/2) |mu|), X = r/H; for mu < 0 twice the lowest point's horizontal
+// value less the opposite direction. Within 0.2 % of the sphere's integral for X > 400.
+real layerColumn(real exponent, real density, real scaleHeight, real radius, real mu) {
+  real width = sqrt(real(2.0f) * radius * scaleHeight);
+  real up = density * erfcxPositive(radius * abs(mu) / width);
+  real sinus = sqrt(max((real(1.0f) - mu) * (real(1.0f) + mu), real(0.0f)));
+  real drop = radius * mu * mu / (scaleHeight * (real(1.0f) + sinus));
+  real down = real(2.0f) * sqrt(sinus) * layerDensity(exponent + drop) - up;
+  // At the nadir the chord is no exponential column; keep it monotone and never negative.
+  return SQRT_PI_HALF * width * (mu < real(0.0f) ? max(down, up) : up);
+}
+
+LayerPoint layerPoint(real altitude, real base, real scaleHeight, real radius, real fromLowest) {
+  LayerPoint point;
+  point.exponent = min(layerExponent(altitude, base, scaleHeight), LAYER_SOLID);
+  point.density = layerDensity(point.exponent);
+  real width = sqrt(real(2.0f) * radius * scaleHeight);
+  point.column = SQRT_PI_HALF * width * point.density * erfcxPositive(abs(fromLowest) / width);
+  return point;
+}
+
+// A layer between two points of a ray.
+struct LayerSpan {
+  // Depth per unit extinction. m.
+  real column;
+  // How far the layer's centre lies before the middle, as a share of the span: -0.5..0.5.
+  real lean;
+};
+
+// Two points on the same side of the ray's lowest one, at most `sag` m above the ray's chord.
+// Nearly straight: logarithmic mean of the densities, all from c = (b/2) coth(b/2), b the
+// difference of exponents, times the curvature's series in g sag/H, g = 8 (c - 1) / b^2 the first
+// moment (error <= 5e-4 at the switch). Else: difference of columns.
+const real CURVATURE_2 = real(0.6);
+const real CURVATURE_3 = real(0.857);
+LayerSpan layerSpan(LayerPoint a, LayerPoint b, real scaleHeight, real length, real sag) {
+  real rise = a.exponent - b.exponent;
+  real size = abs(rise);
+  real z = rise * rise;
+  real sum = a.density + b.density;
+  real fall = max(abs(a.density - b.density), VACUUM_DENSITY);
+  real slope = size < real(0.5f) ? cothSeries(z)
+                                 : (real(0.5f) * size * sum / fall - real(1.0f)) / z;
+  real g = min(real(8.0f) * slope, real(1.0f));
+  real s = sag / scaleHeight;
+  real p = g * s;
+  real p2 = (real(1.0f) - CURVATURE_2 * g) * p;
+  real p3 = (real(1.0f) - CURVATURE_3 * g) * p;
+  real curvature = real(1.0f) + p * (real(1.0f) + p2 * (real(1.0f) + p3));
+  real straight = length * real(0.5f) * sum / (real(1.0f) + z * slope) * curvature;
+  LayerSpan span;
+  span.column = s < real(0.25f) ? straight : abs(a.column - b.column);
+  span.lean = clamp(rise * slope, real(-0.5f), real(0.5f));
+  return span;
+}
+
+// Logarithmic mean of e0 = e^-t0 and e1 = e^-t1, with rise = t1 - t0: segmentInscatter per unit
+// depth, with exponentials that neighbouring segments share.
+real meanTransmittance(real e0, real e1, real rise) {
+  return abs(rise) < real(0.5f) ? e0 * phi1Small(rise) : (e0 - e1) / rise;
+}
+
+vec3 meanTransmittance3(vec3 e0, vec3 e1, vec3 rise) {
+  vec3 mean;
+  mean.x = meanTransmittance(e0.x, e1.x, rise.x);
+  mean.y = meanTransmittance(e0.y, e1.y, rise.y);
+  mean.z = meanTransmittance(e0.z, e1.z, rise.z);
+  return mean;
+}
+
+// One end of a segment: light depth + view depth in front of it, and its exponential.
+struct SegmentEnd {
+  vec3 depth;
+  vec3 transmittance;
+};
+
+// Mean transmittance for one layer when the other adds `other` to the depth over the segment: of
+// that |share| is passed before (share > 0) or after (share < 0) all of the layer, the rest evenly
+// along it.
+vec3 displacedMean(SegmentEnd a, SegmentEnd b, vec3 other, real wanted) {
+  real share = clamp(wanted, real(-1.0f), real(1.0f));
+  vec3 moved = (share > real(0.0f) ? a.depth : b.depth) + other * share;
+  vec3 e = safeExp3(-moved);
+  vec3 e0 = share > real(0.0f) ? e : a.transmittance;
+  vec3 e1 = share > real(0.0f) ? b.transmittance : e;
+  return meanTransmittance3(e0, e1, b.depth - a.depth - other * abs(share));
+}
+
+// Share for displacedMean of a layer whose own depth changes by `own` over the segment, when the
+// other layer leans by otherLean. Its light comes from the depth share y with mean weight e^(-own
+// x), close to 1/2 - L(own/2)/2, L(x) = x / (2 + sqrt(1 + x^2)) near Langevin's function. y is
+// taken to the distance s through the exponential profile (to second order where that is nearly
+// flat), and s to the other layer's share x there. Both layers pass alike if x = y. Cuts the worst
+// error of fog and air from 30 % to 12 %, and its p95 by a third to a half.
+const real OWN_CAP = real(1e6);
+real displacement(LayerPoint a, LayerPoint b, real own, real otherLean) {
+  real bend = clamp(own, -OWN_CAP, OWN_CAP) * real(0.5f);
+  real y = real(0.5f) - real(0.5f) * bend / (real(2.0f) + sqrt(real(1.0f) + bend * bend));
+  real start = max(a.exponent, LAYER_VACUUM);
+  real growth = max(b.exponent, LAYER_VACUUM) - start;
+  bool even = abs(growth) < real(0.5f);
+  real bent = y + real(0.5f) * growth * y * (real(1.0f) - y);
+  real steep = (log(a.density + (b.density - a.density) * y) - start) /
+               (even ? real(1.0f) : growth);
+  real s = clamp(even ? bent : steep, real(0.0f), real(1.0f));
+  real x = s + real(4.0f) * s * (real(1.0f) - s) * otherLean;
+  return (x - y) / (x < y ? y : real(1.0f) - y);
 }
