@@ -324,8 +324,9 @@ AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, real fo
   vec2 viewColumns = vec2(real(0.0f));
   AirResult result;
   result.radiance = vec3(real(0.0f));
-  int segment = 0;
-  do {
+  // A counted loop with a break: lavapipe 22.3 computes a do-while of this length wrongly for lanes
+  // that finish before their neighbours (tests/parity, AirAlongRay).
+  for (int segment = 0; segment < MAX_SEGMENTS; ++segment) {
     real airStop = airRank < AIR_STOPS
                        ? stopDistance(airStops, real(airRank) / real(AIR_STOPS)) : path.reach;
     real fogStop = fogRank < FOG_STOPS
@@ -375,8 +376,10 @@ AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, real fo
     here = next;
     hereColumns = nextColumns;
     hereEnd = nextEnd;
-    segment += 1;
-  } while (here.distance < path.reach && segment < MAX_SEGMENTS);
+    if (!(here.distance < path.reach)) {
+      break;
+    }
+  }
   result.opticalDepth = depthOfColumns(air, viewColumns);
   return result;
 }
