@@ -115,16 +115,15 @@ void MieAngles::assign(std::span<const double> angles) {
   }
 }
 
-// a_n and b_n, [BH83] Eq. 4.88. T is double without absorption: then a_n = p / (p - i q) with p, q
-// real, and Re a_n = |a_n|^2 keeps its relative precision when it is tiny.
-template <typename T>
-void MieSphere::coefficients(T m, std::vector<T>& inside) {
+// a_n and b_n, [BH83] Eq. 4.88, as p / (p - i q). Without absorption p and q are real, so that
+// Re a_n = |a_n|^2 keeps its relative precision when it is tiny.
+void MieSphere::coefficients(Complex m) {
   const size_t count = termCount(x_);
   a_.resize(count);
   b_.resize(count);
   outside_.resize(count);
-  inside.resize(count);
-  logDerivatives(m * x_, count, inside.data());
+  inside_.resize(count);
+  logDerivatives(m * x_, count, inside_.data());
   logDerivatives(x_, count, outside_.data());
   double psi = std::sin(x_);  // psi_0, chi_0, and psi_(-1), chi_(-1)
   double chi = std::cos(x_);
@@ -139,27 +138,22 @@ void MieSphere::coefficients(T m, std::vector<T>& inside) {
         n < x_ ? back * psi - psiBefore : psi / (outside_[i] + step);
     chiBefore = std::exchange(chi, chiNext);
     psiBefore = std::exchange(psi, psiNext);
-    // psi' = psi_(n-1) - n psi_n / x below n = x, D_n psi_n above (no cancellation for small x).
-    const double psiSlope = n < x_ ? psiBefore - step * psi : outside_[i] * psi;
+    const double psiSlope = psiBefore - step * psi;
     const double chiSlope = chiBefore - step * chi;
-    const auto ratio = [&](T u) {
-      const T p = u * psi - psiSlope;
-      const T q = u * chi - chiSlope;
-      return Complex(p) / (Complex(p) - Complex(0, 1) * q);
+    const auto ratio = [&](Complex u) {
+      const Complex p = u * psi - psiSlope;
+      const Complex q = u * chi - chiSlope;
+      return p / (p - Complex(0, 1) * q);
     };
-    a_[i] = ratio(inside[i] / m);
-    b_[i] = ratio(inside[i] * m);
+    a_[i] = ratio(inside_[i] / m);
+    b_[i] = ratio(inside_[i] * m);
   }
 }
 
 void MieSphere::solve(double x, Complex m) {
   assert(x > 0 && m.real() > 0 && m.imag() >= 0);
   x_ = x;
-  if (m.imag() == 0) {
-    coefficients(m.real(), insideReal_);
-  } else {
-    coefficients(m, inside_);
-  }
+  coefficients(m);
   forward_.resize(a_.size());
   backward_.resize(a_.size());
   for (size_t i = 0; i < a_.size(); ++i) {

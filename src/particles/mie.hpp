@@ -66,16 +66,14 @@ class MieSphere {
   const std::vector<std::complex<double>>& b() const { return b_; }
 
  private:
-  template <typename T>
-  void coefficients(T m, std::vector<T>& inside);
+  void coefficients(std::complex<double> m);
   void sums(const MieAngles& angles, size_t block, double* result) const;
 
   double x_ = 0;
   std::vector<std::complex<double>> a_, b_;
   std::vector<MieTerm> forward_, backward_;
   std::vector<double> outside_;               // D_n(x)
-  std::vector<double> insideReal_;            // D_n(m x), m real
-  std::vector<std::complex<double>> inside_;  // D_n(m x), m complex
+  std::vector<std::complex<double>> inside_;  // D_n(m x)
 };
 
 }  // namespace welkin

@@ -14,6 +14,8 @@ using namespace engine;
 
 constexpr VkExtent2D EXTENT{61, 45};
 constexpr VkFormat COLOR = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr double NEAR = 2.0;         // near plane of the cameras, m
+constexpr double FARTHEST = 5000.0;  // surface in the picture, m
 
 class EngineCamera : public testing::Test {
  protected:
@@ -46,10 +48,12 @@ class EngineCamera : public testing::Test {
 };
 
 TEST_F(EngineCamera, EveryDepthFormatEqualsHeadlessInEveryConvention) {
-  // The texture unit converts 16- and 24-bit depths in its own way: one float rounding of d, which
-  // moves a surface at depth d by 2^-24 / |d - d_sky|; at 5 km behind a near plane of 2 m, by
-  // 2^-24 * 2500 = 1.5e-4 of its distance. Radiance changes less than in proportion.
-  constexpr Tolerance conversion{{1.5e-4, 1.5e-4, 1.5e-4}, 1e-7};
+  // The texture unit converts 16- and 24-bit depths in its own way: the codec, the unit's constant
+  // and its product round once each, and a rounding of d near 1 moves a surface at distance z by
+  // 2^-24 z / near of z. Radiance changes at most in proportion to z: air and fog are thin.
+  constexpr double roundings = 3.0;
+  constexpr double relative = roundings * 0x1p-24 * FARTHEST / NEAR;
+  constexpr Tolerance conversion{{relative, relative, relative}, 1e-7};
   constexpr std::array formats{VK_FORMAT_D32_SFLOAT,          VK_FORMAT_D16_UNORM,
                                VK_FORMAT_D24_UNORM_S8_UINT,   VK_FORMAT_D32_SFLOAT_S8_UINT,
                                VK_FORMAT_X8_D24_UNORM_PACK32, VK_FORMAT_R32_SFLOAT};
@@ -75,11 +79,11 @@ TEST_F(EngineCamera, EveryDepthFormatEqualsHeadlessInEveryConvention) {
 
 TEST_F(EngineCamera, ConventionsAgreeWithinTheDepthBuffersPrecision) {
   const std::vector<float> reference = render(CAMERAS[0], VK_FORMAT_D32_SFLOAT);
-  // Standard depth near 1 has steps of 2^-24: at 5 km, with the near plane at 2 m, 2^-24 * 2500 of
-  // the distance; the matrix's two rounded terms add as much each. Radiance over a surface changes
-  // less than in proportion to its distance (fog and air are thin), and the finite far plane's
-  // matrix rounds once more.
-  constexpr double relative = 4.0 * 0x1p-24 * 2500.0;
+  // A float's rounding of a standard depth near 1 moves a surface by 2^-24 z / near of its distance
+  // z: once in the depth, once in each of the two terms that the inverse matrix subtracts, and once
+  // in their difference. Radiance changes at most in proportion to z: air and fog are thin.
+  constexpr double roundings = 4.0;
+  constexpr double relative = roundings * 0x1p-24 * FARTHEST / NEAR;
   constexpr Tolerance precision{{relative, relative, relative}, 1e-6};
   for (const CameraCase& camera : CAMERAS) {
     SCOPED_TRACE(camera.name);

@@ -39,7 +39,7 @@ welkin::Context makeHeadless() {
 WlkCamera cameraOf(const CameraCase& camera, uint32_t width, uint32_t height) {
   auto value = make<WlkCamera>();
   value.position[0] = 30.0;
-  value.position[1] = 20.0;
+  value.position[1] = 60.0;
   value.position[2] = 10.0;
   const double sy = std::sin(YAW);
   const double cy = std::cos(YAW);
@@ -75,8 +75,8 @@ std::vector<float> EnginePicture::depth(const CameraCase& camera) const {
   return values;
 }
 
-// Left third: nothing. The rest: from 50 m in the top row to 5 km in the bottom row, so that some
-// of it stands before the cloud, some inside, some behind.
+// Left third: nothing. The rest: from 5 km in the top row to 50 m in the bottom row, all of it
+// above the ground; some stands before the cloud, some inside, some behind.
 EnginePicture makeEnginePicture(uint32_t width, uint32_t height, const CameraCase& camera) {
   EnginePicture picture{width, height, {}, {}};
   for (uint32_t j = 0; j < height; ++j) {
@@ -87,8 +87,9 @@ EnginePicture makeEnginePicture(uint32_t width, uint32_t height, const CameraCas
       const float v = static_cast<float>(y) / static_cast<float>(height);
       picture.color.insert(picture.color.end(),
                            {2.0f * u, 0.5f + v, 3.0f * u * v, 0.25f + 0.5f * u});
-      picture.viewDepth.push_back(u < 1.0f / 3.0f ? std::numeric_limits<double>::infinity()
-                                                  : 50.0 * std::pow(100.0, static_cast<double>(v)));
+      picture.viewDepth.push_back(u < 1.0f / 3.0f
+                                      ? std::numeric_limits<double>::infinity()
+                                      : 50.0 * std::pow(100.0, 1.0 - static_cast<double>(v)));
     }
   }
   return picture;

@@ -12,6 +12,7 @@
 namespace welkin::reference {
 namespace {
 
+constexpr double DARK = 1e-6;    // radiance below which errors do not count
 constexpr double VACUUM = 40.0;  // scale heights after which a density no longer counts
 
 double altitudeAt(const Planet& planet, double altitude, double mu, double t) {
@@ -132,7 +133,7 @@ struct Integrand {
     for (std::size_t c = 0; c < 3; ++c) {
       error = std::max(error, std::fabs(a[c] + b[c] - whole[c]));
     }
-    if (error <= allowed || level >= 24) {
+    if (error <= allowed || level >= 12) {
       return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
     }
     const std::array<double, 3> x = refine(t0, middle, before, a, allowed, level + 1);
@@ -201,7 +202,7 @@ std::array<double, 3> inscatter(const Planet& planet, const PlanetRay& ray, doub
     sum.fog += part.fog;
   }
   std::array<double, 3> result = {0.0, 0.0, 0.0};
-  const double allowed = tolerance * total / static_cast<double>(cuts.size());
+  const double allowed = tolerance * std::max(total, DARK) / static_cast<double>(cuts.size());
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
     if (cuts[i + 1] <= cuts[i]) {
       continue;

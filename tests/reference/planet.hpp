@@ -43,8 +43,8 @@ std::array<double, 3> depthOf(const Planet& planet, const Columns& c);
 double visibleFraction(const Planet& planet, double altitude, double lightMu, double angularRadius);
 
 // Radiance per unit irradiance, once scattered, for phase values given. The light is attenuated as
-// that of the disk's centre and weighted with visibleFraction. Adaptive, relative error <=
-// tolerance of the largest channel.
+// that of the disk's centre and weighted with visibleFraction. Adaptive, error <= tolerance times
+// the largest channel (or 1e-6, if that is more).
 std::array<double, 3> inscatter(const Planet& planet, const PlanetRay& ray, double airPhase,
                                 double fogPhase, double angularRadius, double tolerance);
 

@@ -171,7 +171,7 @@ void report(const std::string& name, ErrorSample& sample) {
   testing::Test::RecordProperty(name + "_p95", std::to_string(sample.p95()));
 }
 
-constexpr int RAYS = 300;
+constexpr int RAYS = 200;
 
 TEST(LightDepth, MatchesTheSphereFromGroundToSpaceDownToTheHorizon) {
   Cases cases;
@@ -243,6 +243,8 @@ TEST(LightVisibility, IsTheFractionOfTheDiskAboveTheHorizon) {
   EXPECT_EQ(f64::lightVisibility(air, 0.0, 1e-3, 0.0), 1.0);
 }
 
+// The bounds of the next three tests are the product's promise (docs); the measured values that
+// they leave room for stand in riley2004.glsl and are printed.
 TEST(AirAlongRay, AirPerspectiveTo50kmMatchesQuadrature) {
   Cases cases;
   ErrorSample errors;
@@ -275,7 +277,7 @@ TEST(AirAlongRay, SkyMatchesQuadrature) {
   EXPECT_LE(day.p95(), 5e-3);
   EXPECT_LE(day.max(), 2e-2);
   EXPECT_LE(low.p95(), 3e-2);
-  EXPECT_LE(low.max(), 1e-1);
+  EXPECT_LE(low.max(), 5e-2);
   EXPECT_LE(space.p95(), 5e-3);
   EXPECT_LE(space.max(), 2e-2);
   EXPECT_LE(dusk.median(), 2e-2);
@@ -294,11 +296,12 @@ TEST(AirAlongRay, FogAndAirMatchQuadrature) {
   report("fog to 50 km", near);
   report("fog and sky", sky);
   report("fog from above", above);
-  EXPECT_LE(near.p95(), 5e-3);
-  EXPECT_LE(near.max(), 2e-2);
-  EXPECT_LE(sky.p95(), 3e-2);
-  EXPECT_LE(sky.max(), 1e-1);
-  EXPECT_LE(above.p95(), 4e-2);
+  EXPECT_LE(near.p95(), 3e-3);
+  EXPECT_LE(near.max(), 1e-2);
+  EXPECT_LE(sky.p95(), 1e-2);
+  EXPECT_LE(sky.max(), 3e-2);
+  // The worst graze a thin layer near its lowest point.
+  EXPECT_LE(above.p95(), 2e-2);
   EXPECT_LE(above.max(), 1.5e-1);
 }
 

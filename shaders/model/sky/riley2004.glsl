@@ -2,10 +2,10 @@
 // Once-scattered light and optical depth of air and one fog layer on a spherical planet, RGB, per
 // unit irradiance of the light (1/sr). Follows [R04] 4.1; rewritten: the two-ended segments of
 // segment.glsl are fed with spherical light depths, so few segments replace the flat closed form.
-// Both species are exponential in altitude. Errors against quadrature (tests/unit/sky_test.cpp), p95
-// and worst of random rays: air to 50 km 0.1 and 0.2 %, sky with suns to 80 degrees 0.3 and 1 %, to
-// 88 degrees 2 and 4 %; with fog 0.5 and 2 %, grazing fog from above 1 and 15 %. Float follows double
-// to 1e-4.
+// Both species are exponential in altitude. Errors against quadrature (tests/unit/sky_test.cpp),
+// p95 and worst of random rays: air to 50 km 0.1 and 0.2 %, sky with suns to 80 degrees 0.3 and
+// 1 %, to 88 degrees 2 and 3 %; with fog 0.5 and 1.5 %, fog from above 1 and 12 % (grazing). Float
+// follows double to 1e-4.
 
 struct Air {
   real planetRadius;
@@ -228,6 +228,7 @@ Stops layerStops(Air air, AirPath path, real focus, real extinction, real base, 
   real depth = extinction * layerDensity(layerExponent(low, base, scaleHeight)) * stops.width;
   real lightZ = ((air.planetRadius + path.altitude) * path.sunMu + focus * path.viewSun) /
                 stops.width;
+  lightZ = max(lightZ, real(-8.0f));
   real light = depth / (lightZ + sqrt(lightZ * lightZ + HAZARD_0));
   real view = depth * stops.left / ((real(1.0f) + stops.left) * stops.slope);
   stops.leftSkip = min(log(max((light + view) / OPAQUE, real(1.0f))), stops.left);

@@ -28,8 +28,8 @@ real segmentInscatter(real nearSunDepth, real farSunDepth, real opticalDepth) {
 // layer is opaque, e^40 = 2e17.
 const real GROWTH_CAP = real(40.0f);
 
-// Optical depth of `distance` (<= DEPTH_CAP) m with extinction (1/m) at the near end, heightRatio =
-// rise / scale height: [R04] Eq. 11 as beta K phi1(gamma p K), free of 0/0 for horizontal rays.
+// Optical depth of `distance` (<= DEPTH_CAP) m with extinction (1/m) at the near end, heightRatio
+// = rise / scale height: [R04] Eq. 11 as beta K phi1(gamma p K), free of 0/0 for horizontal rays.
 real exponentialDepth(real extinction, real heightRatio, real distance) {
   real reach = heightRatio < -GROWTH_CAP ? distance * (-GROWTH_CAP / heightRatio) : distance;
   return min(extinction * reach * phi1(max(heightRatio, -GROWTH_CAP)), DEPTH_CAP);
@@ -45,7 +45,8 @@ Segment flatExponentialSegment(real extinctionAtEye, real inverseScaleHeight, re
   real nearDepth = extinctionAtEye / (inverseScaleHeight * max(lightSlope, DIRECTION_FLOOR));
   Segment result;
   result.opticalDepth = exponentialDepth(extinctionAtEye, rise, length);
-  real lit = segmentInscatter(nearDepth, nearDepth * safeExp(min(-rise, GROWTH_CAP)), result.opticalDepth);
+  real farDepth = nearDepth * safeExp(min(-rise, GROWTH_CAP));
+  real lit = segmentInscatter(nearDepth, farDepth, result.opticalDepth);
   result.inscatter = lightSlope > real(0.0f) ? lit : real(0.0f);
   return result;
 }
