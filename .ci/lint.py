@@ -17,6 +17,7 @@ import re
 import subprocess
 import sys
 
+sys.dont_write_bytecode = True  # nothing is written to the source tree
 import layers
 import literals
 

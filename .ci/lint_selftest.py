@@ -6,6 +6,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.dont_write_bytecode = True  # nothing is written to the source tree
+import lint
+
 HERE = pathlib.Path(__file__).resolve().parent
 SPDX = "// SPDX-License-Identifier: MIT\n"
 
@@ -82,34 +85,49 @@ PLANTED = [
 ]
 
 
-def lint(files, *flags):
+def findings(files, with_format=False):
     with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder).resolve()
         for name, text in files.items():
-            path = pathlib.Path(folder) / name
+            path = root / name
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text)
-        command = [sys.executable, str(HERE / "lint.py"), "--root", folder, *flags]
-        result = subprocess.run(command, capture_output=True, text=True, check=False)
-        return result.returncode, result.stdout.splitlines()[:-1], result.stderr
+        run = lint.Lint(root)
+        run.run_text_rules()
+        if with_format:
+            run.run_format()
+        return run.findings
+
+
+def exit_status(files):
+    """Of the program itself, which the build sees."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in files.items():
+            (pathlib.Path(folder) / name).write_text(text)
+        command = [sys.executable, str(HERE / "lint.py"), "--root", folder]
+        return subprocess.run(command, stdout=subprocess.DEVNULL, check=False).returncode
 
 
 def main():
     failures = 0
-    code, lines, errors = lint(CLEAN)
-    if code != 0 or lines:
-        print("the clean tree is not clean:", *lines, errors, sep="\n  ")
-        failures += 1
-    for rule, name, text in PLANTED:
-        code, lines, errors = lint({**CLEAN, name: text})
-        hit = [line for line in lines if line.startswith(name + ":") and f": {rule}: " in line]
-        if code != 1 or len(hit) != 1 or len(lines) != 1:
-            print(f"{name}: one {rule} finding expected, got:", *lines, errors, sep="\n  ")
+
+    def expect(condition, what, lines):
+        nonlocal failures
+        if not condition:
+            print(what, *lines, sep="\n  ")
             failures += 1
-    code, lines, errors = lint({**CLEAN, "src/vk/device.hpp": SPDX + "int  a ;\n"}, "--format")
-    if code != 1 or not all("format" in line for line in lines):
-        print("misformatted file not found:", *lines, errors, sep="\n  ")
-        failures += 1
-    print(f"{len(PLANTED) + 2 - failures} cases passed, {failures} failed")
+
+    lines = findings(CLEAN)
+    expect(not lines, "the clean tree is not clean:", lines)
+    for rule, name, text in PLANTED:
+        lines = findings({**CLEAN, name: text})
+        found = len(lines) == 1 and lines[0].startswith(name + ":") and f": {rule}: " in lines[0]
+        expect(found, f"{name}: exactly one {rule} finding expected:", lines)
+    lines = findings({"a.hpp": SPDX + "int  a ;\n"}, with_format=True)
+    expect(lines == ["a.hpp:1: format: run tools/format"], "misformatted file:", lines)
+    expect(exit_status({"a.hpp": SPDX}) == 0, "exit status of a clean tree is not 0", [])
+    expect(exit_status({"a.hpp": "int a;\n"}) == 1, "exit status of a finding is not 1", [])
+    print(f"{len(PLANTED) + 4 - failures} cases passed, {failures} failed")
     return 1 if failures else 0
 
 

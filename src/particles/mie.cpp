@@ -87,8 +87,7 @@ WELKIN_INLINE void sumTermsBody(const double* y, const MieTerm* terms, size_t co
 
 void sumTerms(const double* y, const MieTerm* terms, size_t count, double* result) {
 #ifdef WELKIN_X86
-  static const bool WIDE = __builtin_cpu_supports("avx2") != 0;
-  if (WIDE) {
+  if (__builtin_cpu_supports("avx2") != 0) {
     sumTermsWide(y, terms, count, result);
     return;
   }

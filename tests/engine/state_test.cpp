@@ -77,7 +77,7 @@ TEST_F(EngineStates, ViewsNeedTheUpdateOfTheirOwnFrame) {
   const welkin::Volume second(engine_.context(), info);
   uploadCloud(engine_.context(), second, cloudValues());
   check(wlkPrepare(engine_.context()));
-  check(engine_.beginFrame(2, 1));
+  check(engine_.beginFrame(2, 0));  // one command buffer: frame 1 is not complete
   EXPECT_EQ(renderView(), WLK_ERROR_WRONG_STATE);
   check(update());
   EXPECT_EQ(renderView(), WLK_SUCCESS);
@@ -88,7 +88,7 @@ TEST_F(EngineStates, ViewIsRecordedOncePerFrame) {
   check(update());
   EXPECT_EQ(renderView(), WLK_SUCCESS);
   EXPECT_EQ(renderView(), WLK_ERROR_WRONG_STATE);
-  check(engine_.beginFrame(2, 1));
+  check(engine_.beginFrame(2, 0));  // one command buffer: frame 1 is not complete
   check(update());
   EXPECT_EQ(renderView(), WLK_SUCCESS);
 }

@@ -80,9 +80,10 @@ long double flatOpticalDepth(const FlatRay& ray) {
 }
 
 long double flatInscatter(const FlatRay& ray) {
-  static const GaussRule rule = gaussLegendre(22);
-  constexpr int GRADES = 22;   // factors of 4: 6e-14 of the stretch
-  constexpr int HEIGHTS = 80;  // scale heights along the ray
+  static const GaussRule fine = gaussLegendre(22);
+  static const GaussRule coarse = gaussLegendre(8);  // where the integrand changes by < e^0.5
+  constexpr int GRADES = 22;                         // factors of 4: 6e-14 of the stretch
+  constexpr int HEIGHTS = 80;                        // scale heights along the ray
   std::array<long double, 2 * GRADES + HEIGHTS + 2> cut{};
   std::size_t count = 0;
   const long double end = effectiveEnd(ray);
@@ -113,6 +114,7 @@ long double flatInscatter(const FlatRay& ray) {
     if (!(width > 0.0L) || std::max(height[i], height[i + 1]) < highest - 45.0L) {
       continue;
     }
+    const GaussRule& rule = std::fabs(height[i + 1] - height[i]) < 0.5L ? coarse : fine;
     for (std::size_t k = 0; k < rule.node.size(); ++k) {
       const long double t = cut[i] + width * rule.node[k];
       sum += rule.weight[k] * width * std::exp(logIntegrand(ray, t));
