@@ -138,8 +138,8 @@ TEST(FarAway, AWorldOffsetOf1e7MetresLeavesThePicture) {
   EXPECT_LE(rms, FLOAT_EPSILON * CONDITION);
 }
 
-TEST(ViewSize, OddSizesAreFiniteAndAgreeWithTheLargePicture) {
-  for (const auto& [width, height] : {std::pair{1u, 1u}, {17u, 13u}, {1u, 64u}, {641u, 359u}}) {
+TEST(ViewSize, OddSizesAreFiniteAndLeaveNoPixelOut) {
+  for (const auto& [width, height] : {std::pair{1u, 1u}, {1u, 65u}, {641u, 359u}}) {
     SCOPED_TRACE(std::to_string(width) + " x " + std::to_string(height));
     SceneOptions options;
     options.width = width;

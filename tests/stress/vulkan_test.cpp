@@ -49,7 +49,6 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL hideInstanceProc(VkInstance instance, c
 class EngineAbuse : public ::testing::Test {
  protected:
   EngineAbuse() : scene(small()) {
-    scene.setSky();
     scene.setSun(30, 20);
     scene.addBall(0.01f);
     check(wlkPrepare(scene.context));
