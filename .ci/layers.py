@@ -17,7 +17,9 @@ ANY = r".*"
 # First match decides: (files, ours that it may include, others that it may include).
 # Ours are repository paths; "generated" files exist in the build tree only and count as others.
 RULES = [
-    (r"include/welkin/welkin\.h", r"-", STANDARD),
+    (r"include/welkin/core\.h", r"-", STANDARD),
+    (r"include/welkin/(scene|view|query|welkin)\.h",
+     r"include/welkin/(core|scene|view|query)\.h", STANDARD),
     (r"include/welkin/welkin_vulkan\.h", r"include/welkin/welkin\.h", VULKAN),
     (r"include/welkin/.*\.hpp", r"include/welkin/.*", STANDARD),
     (r"shaders/model/(model|sky/sky)\.glsl", r"shaders/model/.*", r"-"),

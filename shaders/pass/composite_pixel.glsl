@@ -19,7 +19,7 @@ struct PixelLayer {
 };
 
 // 1 inside the light's disk, 0 outside, smooth over the last 4 % of the radius.
-// y = 1 - cos of the angle to the disk's centre, edge the same of its rim: y/edge ~ (angle/radius)^2.
+// y = 1 - cos of the angle to the disk's centre, edge that of its rim: y/edge ~ (angle/radius)^2.
 float diskCoverage(float y, float edge) {
   float x = clamp((1.0f - y / edge) * 12.5f, 0.0f, 1.0f);
   return x * x * (3.0f - 2.0f * x);

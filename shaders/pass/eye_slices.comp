@@ -31,7 +31,7 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 #include "fields.glsl"
 #include "air_nodes.glsl"
 
-const float RAY_ENDS = 1.0e-6f;     // transmittance at which a ray ends; bound of its relative error
+const float RAY_ENDS = 1.0e-6f;    // transmittance at which a ray ends; bounds its relative error
 const float LONGEST_RAY = 1.0e7f; // m inside one volume
 const uint MAX_SUBSTEPS = 256u;   // per slab, for rays that run along it
 

@@ -354,41 +354,4 @@ TEST(MieAverage, PutsTheFogbowsColoursTogether) {
   }
 }
 
-// --- longer runs, by hand; results of the last one in the comments
-
-// Airy puts the secondary 177.06 x^(-2/3) degrees inside Descartes' angle. DISABLED_RESULT_SECONDARY
-TEST(MieAverage, DISABLED_PutsTheSecondaryRainbowWhereAiryDoes) {
-  struct Colour {
-    double wavelength_um, descartes;
-  };
-  for (const auto& [wavelength, descartes] :
-       {Colour{0.44, 127.124}, Colour{0.55, 128.578}, Colour{0.68, 129.558}}) {
-    const double x = 2 * PI * 500 / wavelength;
-    const std::vector<double> at = range(descartes - 1.5, descartes + 0.6, 0.1);
-    const MieAverage rain = averageMie(logNormal(1000, 0.25), waterSample(wavelength, 10),
-                                       scaled(at, DEGREE), nodes(256));
-    const double top = peak(at, rain.phase);
-    RecordProperty("degrees_" + std::to_string(wavelength), std::to_string(top));
-    EXPECT_NEAR(top, descartes - 177.06 * std::pow(x, -2.0 / 3), 0.15) << wavelength;
-  }
-}
-
-// DISABLED_RESULT_FIFTY
-TEST(MieAverage, DISABLED_GivesThePublishedFitItsPublishedErrorAtFiftyMicrometres) {
-  const std::vector<double> angles = scaled(range(0, 180, 0.25), DEGREE);
-  const MieAverage mean =
-      averageMie(logNormal(50, 0.25), greyWater(1.333, 31), angles, MieSettings{});
-  const reference::Fog fit(50);
-  double error = 0;
-  for (size_t i = 0; i < angles.size(); ++i) {
-    const double c = std::cos(angles[i]);
-    const double log = std::log(static_cast<double>(fit(c)) / mean.phase[i]);
-    error += 0.25 * DEGREE * std::abs(c) * std::sin(angles[i]) * log * log;
-  }
-  RecordProperty("error", std::to_string(error));
-  RecordProperty("asymmetry", std::to_string(mean.asymmetry));
-  EXPECT_NEAR(mean.asymmetry, 0.8764, 1e-4);
-  EXPECT_NEAR(error / 0.2149, 1, 0.01);
-}
-
 }  // namespace

@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Planet, air, lights, fog, media and volumes. Part of welkin.h, which states the conventions.
+ */
+#ifndef WELKIN_SCENE_H
+#define WELKIN_SCENE_H
+
+#include "core.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Where altitude is measured. Altitude 0 is the sphere through seaLevelPoint. */
+typedef struct WlkPlanet {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** A world point at sea level. m, |x| <= 1e9. Default (0, 0, 0). */
+  double seaLevelPoint[3];
+  /** Unit vector away from the planet's centre at that point. Default (0, 1, 0). */
+  float up[3];
+  /** Radius of the sea-level sphere. m, [1e4, 1e9], default 6.371e6. */
+  float radius;
+  /** Lambertian reflectance of the bare planet, seen where the engine drew nothing. RGB, [0, 1],
+   *  default 0.1. */
+  float groundAlbedo[3];
+  uint32_t reserved0;
+} WlkPlanet;
+
+/** Sets the planet; null restores the defaults. [C] */
+WLK_API WlkResult wlkSetPlanet(WlkContext context, const WlkPlanet* planet);
+
+/** Air molecules: sky light, aerial perspective, reddening of the sun. [R04] 4.1. */
+typedef struct WlkSky {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Scattering coefficient at sea level. RGB, 1/m, [0, 1], default 5.8e-6, 1.35e-5, 3.31e-5
+   *  ([R04] Table 3). */
+  float rayleighScattering[3];
+  /** Altitude over which the density falls by e. m, [100, 1e5], default 8000 ([R04] 4.1.1). */
+  float scaleHeight;
+} WlkSky;
+
+/** Sets the air; null means none (the default of a new context). [C] */
+WLK_API WlkResult wlkSetSky(WlkContext context, const WlkSky* sky);
+
+/** A directional light with a disk: the sun. */
+typedef struct WlkLight {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Unit vector towards the light. Default (0, 1, 0). */
+  float direction[3];
+  /** Full angle of the disk. rad, [0, 0.2], default 0.00930 (the sun, 0.533 degrees).
+   *  0: no disk. */
+  float angularDiameter;
+  /** Irradiance on a surface facing the light, outside the atmosphere. RGB, [0, 1e6], default 1. */
+  float irradiance[3];
+  uint32_t reserved0;
+} WlkLight;
+
+/** Replaces all lights. `stride` is the distance between elements in bytes. count 0: no light.
+ *  [C] Errors: LIMIT_EXCEEDED over WlkCapabilities::maxLights. */
+WLK_API WlkResult wlkSetLights(WlkContext context, uint32_t count, uint32_t stride,
+                               const WlkLight* lights);
+
+/** A fog layer of water droplets: extinction falls exponentially with altitude, phase function
+ *  HG + Draine of the droplet size ([J23] Eq. 2-7). */
+typedef struct WlkFog {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Median droplet diameter. um, [5, 50], default 10. */
+  float dropletDiameter_um;
+  /** Extinction coefficient at baseAltitude. 1/m, [0, 10], default 0.002. */
+  float extinction;
+  /** Altitude of that value. m, [-1e4, 1e5], default 0. */
+  float baseAltitude;
+  /** Altitude over which the extinction falls by e. m, [1, 1e5], default 100. */
+  float scaleHeight;
+  /** Single-scattering albedo. RGB, [0, 1], default 1. */
+  float singleScatteringAlbedo[3];
+  uint32_t reserved0;
+} WlkFog;
+
+/** Sets the fog layer; null means none (the default). [C] */
+WLK_API WlkResult wlkSetFog(WlkContext context, const WlkFog* fog);
+
+enum {
+  /** HG + Draine blend of water droplets, from dropletDiameter_um. [J23] Eq. 3-7. */
+  WLK_PHASE_HG_DRAINE = 0,
+  /** Henyey-Greenstein, from asymmetry. */
+  WLK_PHASE_HENYEY_GREENSTEIN = 1,
+  /** Rayleigh. [R04] Eq. 1. */
+  WLK_PHASE_RAYLEIGH = 2
+};
+
+typedef struct WlkMediumInfo {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** WLK_PHASE_*. Default WLK_PHASE_HG_DRAINE. */
+  uint32_t phase;
+  /** Median droplet diameter, for WLK_PHASE_HG_DRAINE. um, [5, 50], default 20. */
+  float dropletDiameter_um;
+  /** Mean cosine, for WLK_PHASE_HENYEY_GREENSTEIN. [-0.999, 0.999], default 0.85. */
+  float asymmetry;
+  /** Single-scattering albedo. RGB, [0, 1], default 1. */
+  float singleScatteringAlbedo[3];
+} WlkMediumInfo;
+
+WLK_API WlkResult wlkCreateMedium(WlkContext context, const WlkMediumInfo* info,
+                                  WlkMedium* medium); /* [C] */
+/** Errors: WRONG_STATE while a volume uses it. [C] */
+WLK_API WlkResult wlkDestroyMedium(WlkContext context, WlkMedium medium);
+
+/** Formats of volume data. */
+enum {
+  WLK_FORMAT_R32_FLOAT = 1,
+  WLK_FORMAT_R16_FLOAT = 2,
+  /** Unsigned bytes, 255 meaning 1. */
+  WLK_FORMAT_R8_UNORM = 3
+};
+
+/** One particle field of a volume. */
+typedef struct WlkVolumeField {
+  WlkMedium medium;
+  /** Extinction coefficient at value 1: extinction = value * extinctionScale. 1/m, [0, 1e6]. */
+  float extinctionScale;
+  uint32_t reserved0;
+} WlkVolumeField;
+
+typedef struct WlkVolumeInfo {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Voxels along x, y, z. [1, WlkCapabilities::maxVolumeSize] each. Default 1. */
+  uint32_t size[3];
+  /** [1, WLK_MAX_FIELDS], default 0. */
+  uint32_t fieldCount;
+  /** sizeof(WlkVolumeField) of the caller. Default that. */
+  uint32_t fieldStride;
+  uint32_t reserved0;
+  /** fieldCount elements. Default null. */
+  const WlkVolumeField* fields;
+  /** Row-major 3x4: world = M * (x, y, z, 1), where the volume is the unit box [0, 1]^3 and voxel
+   *  (i, j, k) has its centre at ((i+0.5)/size[0], (j+0.5)/size[1], (k+0.5)/size[2]). Invertible.
+   *  Default identity. */
+  double worldFromVolume[12];
+} WlkVolumeInfo;
+
+/** Creates a volume of value 0 everywhere. [C]
+ *  Errors: INVALID_ARGUMENT, INVALID_HANDLE (medium), LIMIT_EXCEEDED, OUT_OF_*. */
+WLK_API WlkResult wlkCreateVolume(WlkContext context, const WlkVolumeInfo* info,
+                                  WlkVolume* volume);
+/** The memory is freed when no frame in flight uses it. [C] */
+WLK_API WlkResult wlkDestroyVolume(WlkContext context, WlkVolume volume);
+/** Moves a volume; as WlkVolumeInfo::worldFromVolume. [C] */
+WLK_API WlkResult wlkSetVolumeTransform(WlkContext context, WlkVolume volume,
+                                        const double worldFromVolume[12]);
+
+/** Values for a box of voxels of one field. Negative values, NaN and infinities become 0; values
+ *  over 65504 become 65504. */
+typedef struct WlkVolumeUpload {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Index of the field. Default 0. */
+  uint32_t field;
+  /** WLK_FORMAT_R32_FLOAT, R16_FLOAT or R8_UNORM. Default R32_FLOAT. */
+  uint32_t format;
+  /** First voxel. Default 0. */
+  uint32_t offset[3];
+  /** Voxels along x, y, z; offset + extent <= size. Default 0. */
+  uint32_t extent[3];
+  /** Bytes from one row (y) to the next; 0 means tight. Default 0. */
+  uint64_t rowPitch;
+  /** Bytes from one slice (z) to the next; 0 means tight rows. Default 0. */
+  uint64_t slicePitch;
+  /** x fastest. Read during the call only. Default null. */
+  const void* data;
+  /** Bytes at data; what the pitches reach must lie inside. Default 0. */
+  uint64_t dataSize;
+} WlkVolumeUpload;
+
+/** Copies the data; the GPU copy is made by the next frame. [C] */
+WLK_API WlkResult wlkUploadVolume(WlkContext context, WlkVolume volume,
+                                  const WlkVolumeUpload* upload);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

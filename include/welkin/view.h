@@ -1,0 +1,265 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Views, frames and their statistics. Part of welkin.h, which states the conventions.
+ */
+#ifndef WELKIN_VIEW_H
+#define WELKIN_VIEW_H
+
+#include "core.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+  /** Write colour * transmittance + radiance to a storage image (or over the input image). */
+  WLK_COMPOSITE_COMPUTE = 0,
+  /** Blend onto the engine's colour attachment with dual-source blending. */
+  WLK_COMPOSITE_BLEND = 1,
+  /** Write premultiplied radiance and RGB transmittance to two images; the engine composites. */
+  WLK_COMPOSITE_SEPARATE = 2
+};
+
+/** Layers of a view. SUN_DISK and GROUND belong to the sky: they need WLK_LAYER_SKY and
+ *  wlkSetSky. */
+enum {
+  WLK_LAYER_SKY = 1u << 0,
+  WLK_LAYER_FOG = 1u << 1,
+  WLK_LAYER_VOLUMES = 1u << 2,
+  WLK_LAYER_SUN_DISK = 1u << 3,
+  WLK_LAYER_GROUND = 1u << 4,
+  WLK_LAYER_ALL = 0x1f
+};
+
+enum {
+  WLK_TARGET_RGBA16_FLOAT = 1,
+  WLK_TARGET_RGBA32_FLOAT = 2,
+  WLK_TARGET_B10G11R11_FLOAT = 3
+};
+
+typedef struct WlkViewInfo {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Pixels. [1, 16384], default 1280 x 720. */
+  uint32_t width;
+  uint32_t height;
+  /** WLK_COMPOSITE_*. Default COMPUTE. Headless contexts take COMPUTE and SEPARATE. */
+  uint32_t composite;
+  /** Format of the images written, WLK_TARGET_*. Default RGBA16_FLOAT; headless RGBA32_FLOAT. */
+  uint32_t targetFormat;
+  /** Bits WLK_LAYER_*. Default all. */
+  uint64_t layers;
+} WlkViewInfo;
+
+WLK_API WlkResult wlkCreateView(WlkContext context, const WlkViewInfo* info,
+                                WlkView* view); /* [C] */
+/** Changes size, composite mode, format or layers. Needs wlkPrepare. [C] */
+WLK_API WlkResult wlkUpdateView(WlkContext context, WlkView view, const WlkViewInfo* info);
+WLK_API WlkResult wlkDestroyView(WlkContext context, WlkView view); /* [C] */
+
+/** Near, far, field of view, handedness, reversed and infinite depth follow from the matrix. */
+typedef struct WlkCamera {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Eye in the world. m, |x| <= 1e9. Default (0, 2, 0). */
+  double position[3];
+  /** Rotation, column-major 3x3, orthonormal (mirrored allowed). Default identity. */
+  float viewFromWorld[9];
+  /** Factor on everything written, > 0, so that the target's range is used. [1e-9, 1e9], def. 1. */
+  float preExposure;
+  /** Vulkan clip space, without jitter, perspective. Default 60 degrees vertical field of view,
+   *  16:9, y up in view space, looking along -z, infinite reversed depth with near plane 0.1 m. */
+  float clipFromView[16];
+} WlkCamera;
+
+/** Sets the camera for the frames to come. [C] Errors: INVALID_ARGUMENT also for a singular or
+ *  orthographic clipFromView and for a viewFromWorld that is no rotation. */
+WLK_API WlkResult wlkSetCamera(WlkContext context, WlkView view, const WlkCamera* camera);
+
+enum {
+  WLK_QUALITY_LOW = 0,
+  WLK_QUALITY_MEDIUM = 1,
+  WLK_QUALITY_HIGH = 2,
+  WLK_QUALITY_ULTRA = 3
+};
+
+enum {
+  /** The level's choice. */
+  WLK_SLICING_DEFAULT = 0,
+  /** Planes between eye and light, [R04] 4.2: acute angles front to back, obtuse back to front. */
+  WLK_SLICING_HALF_ANGLE = 1,
+  /** Planes across the light's direction: no flip at 90 degrees, independent of the view. */
+  WLK_SLICING_LIGHT_ALIGNED = 2
+};
+
+enum {
+  WLK_SCATTERING_DEFAULT = 0,
+  /** Once-scattered light only. */
+  WLK_SCATTERING_SINGLE = 1,
+  /** Forward multiple scattering, [R04] Eq. 20-26 as corrected in docs/equations.md. */
+  WLK_SCATTERING_FORWARD = 2
+};
+
+enum {
+  /** Record every pass whether needed or not; for tests that compare with skipping. */
+  WLK_QUALITY_NO_SKIP = 1u << 0
+};
+
+/** Zero in a field means the level's choice. */
+typedef struct WlkQuality {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** WLK_QUALITY_*. Default HIGH. */
+  uint32_t level;
+  /** Slabs through each volume. 0 or [8, 2048]. Default 0. */
+  uint32_t sliceCount;
+  /** Slabs per batch: 1 is the paper's algorithm. 0 or [1, sliceCount]. Default 0. */
+  uint32_t batchSize;
+  /** Texels along the light buffer's edge. 0 or [16, 2048]. Default 0. */
+  uint32_t lightBufferSize;
+  /** WLK_SLICING_*. Default DEFAULT. */
+  uint32_t slicing;
+  /** WLK_SCATTERING_*. Default DEFAULT. */
+  uint32_t scattering;
+  /** Bits WLK_QUALITY_NO_SKIP. Default 0. */
+  uint64_t flags;
+} WlkQuality;
+
+/** Sets a view's quality. Needs wlkPrepare. [C] */
+WLK_API WlkResult wlkSetQuality(WlkContext context, WlkView view, const WlkQuality* quality);
+
+/* ------------------------------------------------------------------------------------- frames */
+
+/** Makes every pipeline, buffer and table that the present scene and views need. After it, and
+ *  until something is created or resized, recording allocates nothing. [C]
+ *  Errors: WRONG_STATE in CPU mode, OUT_OF_*, DEVICE_LOST. */
+WLK_API WlkResult wlkPrepare(WlkContext context);
+
+typedef struct WlkFrameInfo {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Number of this frame; greater than the last one. Default 0. */
+  uint64_t frameIndex;
+  /** All frames up to this number are complete on the GPU; 0 if none. Default 0. */
+  uint64_t completedFrameIndex;
+} WlkFrameInfo;
+
+/** Starts a frame on the engine's device; headless contexts do this themselves. frameIndex starts
+ *  at 1. [C] Errors: FRAMES_IN_FLIGHT, INVALID_ARGUMENT, WRONG_STATE. */
+WLK_API WlkResult wlkBeginFrame(WlkContext context, const WlkFrameInfo* frame);
+
+/** The engine's picture for wlkRenderHeadless. */
+typedef struct WlkHeadlessTargets {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** width * height RGBA floats, top row first; null means black. Default null. */
+  const float* color;
+  /** width * height depth values in the camera's convention; null means nothing is there. */
+  const float* depth;
+} WlkHeadlessTargets;
+
+/** Renders one frame of the view and waits for it. `targets` may be null. [C]
+ *  Errors: WRONG_STATE outside headless mode, NOT_PREPARED, DEVICE_LOST. */
+WLK_API WlkResult wlkRenderHeadless(WlkContext context, WlkView view,
+                                    const WlkHeadlessTargets* targets);
+
+enum {
+  /** The composited picture (COMPUTE). */
+  WLK_IMAGE_COLOR = 0,
+  /** Premultiplied radiance (SEPARATE). */
+  WLK_IMAGE_RADIANCE = 1,
+  /** RGB transmittance (SEPARATE). */
+  WLK_IMAGE_TRANSMITTANCE = 2
+};
+
+typedef struct WlkImageData {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** WLK_IMAGE_*. Default COLOR. */
+  uint32_t image;
+  uint32_t reserved0;
+  /** Receives width * height RGBA floats, top row first. Default null. */
+  float* data;
+  /** Bytes at data, at least width * height * 16. Default 0. */
+  uint64_t dataSize;
+} WlkImageData;
+
+/** Copies an image of the view's last headless frame. [C] NOT_READY before the first frame. */
+WLK_API WlkResult wlkReadback(WlkContext context, WlkView view, const WlkImageData* image);
+
+/* --------------------------------------------------------------------------------- statistics */
+
+enum {
+  WLK_PASS_LIGHT_SLICES = 1,
+  WLK_PASS_EYE_SLICES = 2,
+  WLK_PASS_COMPOSITE = 3
+};
+
+/** Why a pass was recorded or not. */
+enum {
+  WLK_REASON_NEEDED = 0,
+  WLK_REASON_LAYER_OFF = 1,
+  WLK_REASON_NOTHING_TO_DRAW = 2,
+  WLK_REASON_ZERO_DENSITY = 3,
+  WLK_REASON_OUTSIDE_VIEW = 4,
+  WLK_REASON_NO_LIGHT = 5,
+  WLK_REASON_NO_SKIP_FLAG = 6
+};
+
+/** One line of the plan: a pass over one volume (or over the picture), all its batches together. */
+typedef struct WlkPassStats {
+  /** "light slices" and so on. */
+  char name[WLK_NAME_SIZE];
+  /** WLK_PASS_*. */
+  uint32_t pass;
+  /** 1 if commands were recorded, 0 if skipped. */
+  uint32_t recorded;
+  /** WLK_REASON_*. */
+  uint32_t reason;
+  /** Dispatches or draws recorded. */
+  uint32_t commands;
+  /** The volume, {0} for passes over the picture. */
+  WlkVolume volume;
+  /** Shader invocations (threads) recorded. */
+  uint64_t invocations;
+  /** GPU time of the newest finished frame, ns; 0 before one finished. */
+  uint64_t gpuTime_ns;
+} WlkPassStats;
+
+typedef struct WlkFrameStats {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  uint64_t frameIndex;
+  uint32_t dispatches;
+  uint32_t draws;
+  uint32_t barriers;
+  uint32_t descriptorWrites;
+  uint64_t bytesUploaded;
+  /** Bytes of device memory and of host memory that the context holds. */
+  uint64_t deviceMemory;
+  uint64_t hostMemory;
+  /** Pixels of the newest finished frame whose value was not finite before the final guard. */
+  uint64_t nonFinitePixels;
+} WlkFrameStats;
+
+/** Statistics of the view's last recorded frame. `passCount` holds the room in `passes` and
+ *  receives the number of passes; `passes` may be null. [C] NOT_READY before the first frame,
+ *  INCOMPLETE if the array was too short. */
+WLK_API WlkResult wlkGetFrameStats(WlkContext context, WlkView view, WlkFrameStats* stats,
+                                   uint32_t* passCount, WlkPassStats* passes);
+
+/** "WLK_REASON_ZERO_DENSITY" and so on. [F] */
+WLK_API const char* wlkReasonName(uint32_t reason);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
