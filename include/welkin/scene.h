@@ -153,8 +153,7 @@ typedef struct WlkVolumeInfo {
 
 /** Creates a volume of value 0 everywhere. [C]
  *  Errors: INVALID_ARGUMENT, INVALID_HANDLE (medium), LIMIT_EXCEEDED, OUT_OF_*. */
-WLK_API WlkResult wlkCreateVolume(WlkContext context, const WlkVolumeInfo* info,
-                                  WlkVolume* volume);
+WLK_API WlkResult wlkCreateVolume(WlkContext context, const WlkVolumeInfo* info, WlkVolume* volume);
 /** The memory is freed when no frame in flight uses it. [C] */
 WLK_API WlkResult wlkDestroyVolume(WlkContext context, WlkVolume volume);
 /** Moves a volume; as WlkVolumeInfo::worldFromVolume. [C] */

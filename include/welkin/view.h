@@ -31,11 +31,7 @@ enum {
   WLK_LAYER_ALL = 0x1f
 };
 
-enum {
-  WLK_TARGET_RGBA16_FLOAT = 1,
-  WLK_TARGET_RGBA32_FLOAT = 2,
-  WLK_TARGET_B10G11R11_FLOAT = 3
-};
+enum { WLK_TARGET_RGBA16_FLOAT = 1, WLK_TARGET_RGBA32_FLOAT = 2, WLK_TARGET_B10G11R11_FLOAT = 3 };
 
 typedef struct WlkViewInfo {
   uint32_t sType;
@@ -78,12 +74,7 @@ typedef struct WlkCamera {
  *  orthographic clipFromView and for a viewFromWorld that is no rotation. */
 WLK_API WlkResult wlkSetCamera(WlkContext context, WlkView view, const WlkCamera* camera);
 
-enum {
-  WLK_QUALITY_LOW = 0,
-  WLK_QUALITY_MEDIUM = 1,
-  WLK_QUALITY_HIGH = 2,
-  WLK_QUALITY_ULTRA = 3
-};
+enum { WLK_QUALITY_LOW = 0, WLK_QUALITY_MEDIUM = 1, WLK_QUALITY_HIGH = 2, WLK_QUALITY_ULTRA = 3 };
 
 enum {
   /** The level's choice. */
@@ -195,11 +186,7 @@ WLK_API WlkResult wlkReadback(WlkContext context, WlkView view, const WlkImageDa
 
 /* --------------------------------------------------------------------------------- statistics */
 
-enum {
-  WLK_PASS_LIGHT_SLICES = 1,
-  WLK_PASS_EYE_SLICES = 2,
-  WLK_PASS_COMPOSITE = 3
-};
+enum { WLK_PASS_LIGHT_SLICES = 1, WLK_PASS_EYE_SLICES = 2, WLK_PASS_COMPOSITE = 3 };
 
 /** Why a pass was recorded or not. */
 enum {

@@ -24,8 +24,8 @@
 #define WELKIN_WELKIN_H
 
 #include "core.h"
+#include "query.h"
 #include "scene.h"
 #include "view.h"
-#include "query.h"
 
 #endif
