@@ -19,7 +19,8 @@ namespace welkin::vk {
 #define WELKIN_DEVICE_FUNCTIONS(X)                                                                 \
   X(AllocateMemory)                                                                                \
   X(FreeMemory)                                                                                    \
-  X(MapMemory) X(CreateBuffer) X(DestroyBuffer) X(GetBufferMemoryRequirements) X(BindBufferMemory) \
+  X(MapMemory)                                                                                     \
+  X(CreateBuffer) X(DestroyBuffer) X(GetBufferMemoryRequirements) X(BindBufferMemory)              \
       X(CreateImage) X(DestroyImage) X(GetImageMemoryRequirements) X(BindImageMemory)              \
           X(CreateImageView) X(DestroyImageView) X(CreateSampler) X(DestroySampler)                \
               X(CreateShaderModule) X(DestroyShaderModule) X(CreateDescriptorSetLayout)            \
@@ -38,12 +39,13 @@ namespace welkin::vk {
                                                                   X(CmdDraw) X(CmdClearColorImage)
 
 // Only for headless contexts, which own queue and command buffers.
-#define WELKIN_HEADLESS_FUNCTIONS(X)                                                         \
-  X(DestroyDevice)                                                                           \
-  X(GetDeviceQueue)                                                                          \
-  X(CreateCommandPool) X(DestroyCommandPool) X(AllocateCommandBuffers) X(BeginCommandBuffer) \
-      X(EndCommandBuffer) X(QueueSubmit) X(ResetCommandPool) X(CreateFence) X(DestroyFence)  \
-          X(WaitForFences) X(ResetFences) X(DeviceWaitIdle)
+#define WELKIN_HEADLESS_FUNCTIONS(X)                                                        \
+  X(DestroyDevice)                                                                          \
+  X(GetDeviceQueue)                                                                         \
+  X(CreateCommandPool)                                                                      \
+  X(DestroyCommandPool) X(AllocateCommandBuffers) X(BeginCommandBuffer) X(EndCommandBuffer) \
+      X(QueueSubmit) X(ResetCommandPool) X(CreateFence) X(DestroyFence) X(WaitForFences)    \
+          X(ResetFences) X(DeviceWaitIdle)
 
 struct Dispatch {
 #define WELKIN_MEMBER(name) PFN_vk##name name = nullptr;
