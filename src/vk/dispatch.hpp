@@ -7,45 +7,34 @@
 
 namespace welkin::vk {
 
-#define WELKIN_INSTANCE_FUNCTIONS(X)        \
-  X(EnumeratePhysicalDevices)               \
-  X(GetPhysicalDeviceProperties)            \
-  X(GetPhysicalDeviceFeatures)              \
-  X(GetPhysicalDeviceFormatProperties)      \
-  X(GetPhysicalDeviceMemoryProperties)      \
-  X(GetPhysicalDeviceQueueFamilyProperties) \
-  X(GetDeviceProcAddr)
+// clang-format off: it moves the columns of these lists on every run.
+#define WELKIN_INSTANCE_FUNCTIONS(X)                                                            \
+  X(EnumeratePhysicalDevices) X(GetPhysicalDeviceProperties) X(GetPhysicalDeviceFeatures)       \
+  X(GetPhysicalDeviceFormatProperties) X(GetPhysicalDeviceMemoryProperties)                     \
+  X(GetPhysicalDeviceQueueFamilyProperties) X(GetDeviceProcAddr)
 
-#define WELKIN_DEVICE_FUNCTIONS(X)                                                                 \
-  X(AllocateMemory)                                                                                \
-  X(FreeMemory)                                                                                    \
-  X(MapMemory)                                                                                     \
-  X(CreateBuffer) X(DestroyBuffer) X(GetBufferMemoryRequirements) X(BindBufferMemory)              \
-      X(CreateImage) X(DestroyImage) X(GetImageMemoryRequirements) X(BindImageMemory)              \
-          X(CreateImageView) X(DestroyImageView) X(CreateSampler) X(DestroySampler)                \
-              X(CreateShaderModule) X(DestroyShaderModule) X(CreateDescriptorSetLayout)            \
-                  X(DestroyDescriptorSetLayout) X(CreatePipelineLayout) X(DestroyPipelineLayout)   \
-                      X(CreateComputePipelines) X(CreateGraphicsPipelines) X(DestroyPipeline)      \
-                          X(CreateDescriptorPool) X(DestroyDescriptorPool)                         \
-                              X(AllocateDescriptorSets) X(UpdateDescriptorSets) X(CreateQueryPool) \
-                                  X(DestroyQueryPool) X(GetQueryPoolResults)                       \
-                                      X(CmdPipelineBarrier2) X(CmdCopyBufferToImage)               \
-                                          X(CmdCopyImageToBuffer) X(CmdFillBuffer)                 \
-                                              X(CmdBindPipeline) X(CmdBindDescriptorSets)          \
-                                                  X(CmdPushConstants) X(CmdDispatch)               \
-                                                      X(CmdResetQueryPool) X(CmdWriteTimestamp2)   \
-                                                          X(CmdBeginRendering) X(CmdEndRendering)  \
-                                                              X(CmdSetViewport) X(CmdSetScissor)   \
-                                                                  X(CmdDraw) X(CmdClearColorImage)
+#define WELKIN_DEVICE_FUNCTIONS(X)                                                              \
+  X(AllocateMemory) X(FreeMemory) X(MapMemory) X(CreateBuffer) X(DestroyBuffer)                 \
+  X(GetBufferMemoryRequirements) X(BindBufferMemory) X(CreateImage) X(DestroyImage)             \
+  X(GetImageMemoryRequirements) X(BindImageMemory) X(CreateImageView) X(DestroyImageView)       \
+  X(CreateSampler) X(DestroySampler) X(CreateShaderModule) X(DestroyShaderModule)               \
+  X(CreateDescriptorSetLayout) X(DestroyDescriptorSetLayout) X(CreatePipelineLayout)            \
+  X(DestroyPipelineLayout) X(CreateComputePipelines) X(CreateGraphicsPipelines)                 \
+  X(DestroyPipeline) X(CreateDescriptorPool) X(DestroyDescriptorPool)                           \
+  X(AllocateDescriptorSets) X(UpdateDescriptorSets) X(CreateQueryPool) X(DestroyQueryPool)      \
+  X(GetQueryPoolResults) X(CmdPipelineBarrier2) X(CmdCopyBufferToImage)                         \
+  X(CmdCopyImageToBuffer) X(CmdFillBuffer) X(CmdBindPipeline) X(CmdBindDescriptorSets)          \
+  X(CmdPushConstants) X(CmdDispatch) X(CmdResetQueryPool) X(CmdWriteTimestamp2)                 \
+  X(CmdBeginRendering) X(CmdEndRendering) X(CmdSetViewport) X(CmdSetScissor) X(CmdDraw)         \
+  X(CmdClearColorImage)
 
 // Only for headless contexts, which own queue and command buffers.
-#define WELKIN_HEADLESS_FUNCTIONS(X)                                                        \
-  X(DestroyDevice)                                                                          \
-  X(GetDeviceQueue)                                                                         \
-  X(CreateCommandPool)                                                                      \
-  X(DestroyCommandPool) X(AllocateCommandBuffers) X(BeginCommandBuffer) X(EndCommandBuffer) \
-      X(QueueSubmit) X(ResetCommandPool) X(CreateFence) X(DestroyFence) X(WaitForFences)    \
-          X(ResetFences) X(DeviceWaitIdle)
+#define WELKIN_HEADLESS_FUNCTIONS(X)                                                            \
+  X(DestroyDevice) X(GetDeviceQueue) X(CreateCommandPool) X(DestroyCommandPool)                 \
+  X(AllocateCommandBuffers) X(BeginCommandBuffer) X(EndCommandBuffer) X(QueueSubmit)            \
+  X(ResetCommandPool) X(CreateFence) X(DestroyFence) X(WaitForFences) X(ResetFences)            \
+  X(DeviceWaitIdle)
+// clang-format on
 
 struct Dispatch {
 #define WELKIN_MEMBER(name) PFN_vk##name name = nullptr;
