@@ -7,7 +7,8 @@
 
 namespace welkin::vk {
 
-// clang-format off: it moves the columns of these lists on every run.
+// clang-format would move the columns of these lists on every run.
+// clang-format off
 #define WELKIN_INSTANCE_FUNCTIONS(X)                                                            \
   X(EnumeratePhysicalDevices) X(GetPhysicalDeviceProperties) X(GetPhysicalDeviceFeatures)       \
   X(GetPhysicalDeviceFormatProperties) X(GetPhysicalDeviceMemoryProperties)                     \
