@@ -40,7 +40,8 @@ typedef struct WlkVulkanRequirements {
   VkImageUsageFlags storageTargetUsage;
   VkImageUsageFlags blendTargetUsage;
   VkImageUsageFlags volumeUsage;
-  uint32_t reserved0;
+  /** VkPhysicalDeviceFeatures, needed for WLK_COMPOSITE_BLEND only. */
+  uint32_t fragmentStoresAndAtomics;
 } WlkVulkanRequirements;
 
 /** Fills the requirements. [F] */

@@ -118,7 +118,7 @@ void Gpu::pickDevice() {
   throw std::runtime_error("no Vulkan 1.3 device draws, computes and presents on one queue");
 }
 
-// Enables what Welkin asks for, and nothing else: this engine needs no feature of its own.
+// Enables what Welkin needs, and nothing else: this engine needs no feature of its own.
 void Gpu::createDevice() {
   WlkVulkanRequirements needs = welkin::make<WlkVulkanRequirements>();
   welkin::check(wlkVulkanGetRequirements(&needs));

@@ -160,6 +160,7 @@ WlkResult wlkVulkanGetRequirements(WlkVulkanRequirements* requirements) {
     requirements->dynamicRendering = 1;
     requirements->shaderStorageImageWriteWithoutFormat = 1;
     requirements->dualSrcBlend = 1;
+    requirements->fragmentStoresAndAtomics = 1;
     requirements->depthUsage = VK_IMAGE_USAGE_SAMPLED_BIT;
     requirements->colorInputUsage = VK_IMAGE_USAGE_SAMPLED_BIT;
     requirements->storageTargetUsage = VK_IMAGE_USAGE_STORAGE_BIT;

@@ -92,7 +92,9 @@ void fillVolume(const VolumeState& volume, const PlannedVolume& planned, const g
   out.lightV = glm::vec4(layout.lightV);
   out.plane = glm::vec4(layout.plane);
   const glm::dvec3 origin = inverse * (layout.texelOrigin - box[3]);
-  const double maxStep = layout.slabThickness * 1.5;
+  // Longest stretch of a ray between two samples: at 1.5 slabs, stretches of optical depth 2 drew
+  // contour lines on a cumulus lit from the side; at 0.75 none are left.
+  const double maxStep = layout.slabThickness * 0.75;
   out.texelOrigin = glm::vec4(glm::vec3(origin), 0.0f);
   out.texelA = glm::vec4(glm::vec3(inverse * layout.texelU), static_cast<float>(layout.lightPath));
   out.texelB =

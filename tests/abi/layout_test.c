@@ -245,7 +245,7 @@ AT(WlkVulkanRequirements, colorInputUsage, 44);
 AT(WlkVulkanRequirements, storageTargetUsage, 48);
 AT(WlkVulkanRequirements, blendTargetUsage, 52);
 AT(WlkVulkanRequirements, volumeUsage, 56);
-AT(WlkVulkanRequirements, reserved0, 60);
+AT(WlkVulkanRequirements, fragmentStoresAndAtomics, 60);
 
 SIZE(WlkVulkanDeviceInfo, 72);
 AT(WlkVulkanDeviceInfo, sType, 0);

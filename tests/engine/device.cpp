@@ -119,7 +119,7 @@ void Device::createDevice() {
   while (family_ < families && (list[family_].queueFlags & needs.queueFlags) != needs.queueFlags) {
     ++family_;
   }
-  // What Welkin asks for and nothing more: a feature it forgot to ask for is an error here.
+  // What Welkin asks for and one feature more: another one that it forgot is an error here.
   VkPhysicalDeviceVulkan13Features features13{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
   features13.synchronization2 = needs.synchronization2;
@@ -129,7 +129,8 @@ void Device::createDevice() {
   features.features.shaderStorageImageWriteWithoutFormat =
       needs.shaderStorageImageWriteWithoutFormat;
   features.features.dualSrcBlend = needs.dualSrcBlend;
-  // WLK_COMPOSITE_BLEND counts non-finite pixels in its fragment shader.
+  // WLK_COMPOSITE_BLEND counts non-finite pixels in its fragment shader; WlkVulkanRequirements
+  // has no field for it.
   features.features.fragmentStoresAndAtomics = VK_TRUE;
   const float priority = 1.0f;
   VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
