@@ -13,13 +13,13 @@
 namespace cli {
 namespace {
 
-struct Options {
+struct CompareOptions {
   std::string picture;
   std::string reference;
   std::string json;
 };
 
-constexpr const char* HELP = R"(
+constexpr const char* COMPARE_HELP = R"(
 Metrics over the R, G, B samples that are finite in both pictures, with a from A and b from B:
   relMSE               mean((a - b)^2 / max(|b|, f)^2), f = 1 % of the mean |b|
   rmseOverMean         sqrt(mean((a - b)^2)) / mean |b|
@@ -28,7 +28,7 @@ Metrics over the R, G, B samples that are finite in both pictures, with a from A
   bias                 mean(a - b) / mean |b|
   nonFinite            samples that are NaN or infinite in A or B)";
 
-void run(const Options& options) {
+void run(const CompareOptions& options) {
   const host::Image picture = host::readExr(options.picture);
   const host::Image reference = host::readExr(options.reference);
   if (picture.width != reference.width || picture.height != reference.height) {
@@ -66,8 +66,8 @@ void run(const Options& options) {
 
 void addCompare(CLI::App& app) {
   CLI::App* command = app.add_subcommand("compare", "Compare two EXR pictures");
-  const auto options = std::make_shared<Options>();
-  command->footer(HELP);
+  const auto options = std::make_shared<CompareOptions>();
+  command->footer(COMPARE_HELP);
   command->add_option("A", options->picture, "The picture (EXR)")->required();
   command->add_option("B", options->reference, "The reference (EXR)")->required();
   command->add_option("--json", options->json, "Write the metrics to this file as JSON");

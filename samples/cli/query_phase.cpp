@@ -14,7 +14,7 @@
 namespace cli {
 namespace {
 
-struct Options {
+struct PhaseOptions {
   std::string in;
   std::string out;
   std::string scene;
@@ -25,7 +25,7 @@ struct Options {
   std::optional<float> asymmetry;
 };
 
-constexpr const char* HELP = R"(
+constexpr const char* PHASE_HELP = R"(
 Column of IN, named by its first line (angle_deg if the first line holds a number):
   angle_deg   scattering angle, 0 is forward, degrees in [0, 180]
   angle_rad   the same in radians, [0, pi]
@@ -35,7 +35,7 @@ The medium is {"phase": "hg-draine", "dropletDiameter_um": 20, "asymmetry": 0.85
 called --medium of --scene; --set changes it (key=value, or media.NAME.key=value with --scene),
 then --type, --diameter-um and --asymmetry do.)";
 
-WlkMediumInfo readMedium(const Options& options) {
+WlkMediumInfo readMedium(const PhaseOptions& options) {
   host::Json root = host::Json::object();
   std::string key;
   if (!options.scene.empty()) {
@@ -79,7 +79,7 @@ std::vector<double> readAngles(const host::CsvTable& table) {
   return angles;
 }
 
-void run(const Options& options) {
+void run(const PhaseOptions& options) {
   if (options.scene.empty() != options.medium.empty()) {
     throw host::InputError("command line", "--medium", "expected together with --scene");
   }
@@ -103,8 +103,8 @@ void run(const Options& options) {
 
 void addPhase(CLI::App& app) {
   CLI::App* command = app.add_subcommand("phase", "Phase function of a medium at given angles");
-  const auto options = std::make_shared<Options>();
-  command->footer(HELP);
+  const auto options = std::make_shared<PhaseOptions>();
+  command->footer(PHASE_HELP);
   command->add_option("--in", options->in, "Angles (CSV)")->required();
   command->add_option("--out", options->out, "Results (CSV)")->required();
   command->add_option("--type", options->type, "hg-draine, hg or rayleigh");

@@ -12,14 +12,14 @@
 namespace cli {
 namespace {
 
-struct Options {
+struct SkyOptions {
   std::string in;
   std::string out;
   std::string scene;
   std::vector<std::string> assignments;
 };
 
-constexpr const char* HELP = R"(
+constexpr const char* SKY_HELP = R"(
 Columns of IN, named by its first line, or in this order if the first line holds numbers:
   x,y,z,dx,dy,dz,length   or   x,y,z,elevation_deg,azimuth_deg,length
     x, y, z          origin of the ray in the world, m
@@ -102,7 +102,7 @@ WlkRay rayOf(const host::CsvTable& table, size_t row, bool angles) {
   return ray;
 }
 
-host::Scene readScene(const Options& options) {
+host::Scene readScene(const SkyOptions& options) {
   if (!options.scene.empty()) {
     return host::parseScene(host::readSceneJson(options.scene, options.assignments), options.scene);
   }
@@ -114,7 +114,7 @@ host::Scene readScene(const Options& options) {
   return host::parseScene(root, "--set");
 }
 
-void run(const Options& options) {
+void run(const SkyOptions& options) {
   const host::Scene scene = readScene(options);
   const host::CsvTable table = host::readCsv(options.in, {vectorColumns(), angleColumns()});
   const bool angles = table.find("elevation_deg") >= 0 || table.find("azimuth_deg") >= 0;
@@ -160,8 +160,8 @@ void run(const Options& options) {
 void addSky(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("sky", "Radiance and transmittance of air and fog along rays");
-  const auto options = std::make_shared<Options>();
-  command->footer(HELP);
+  const auto options = std::make_shared<SkyOptions>();
+  command->footer(SKY_HELP);
   command->add_option("--in", options->in, "Rays (CSV)")->required();
   command->add_option("--out", options->out, "Results (CSV)")->required();
   command->add_option("--scene", options->scene, "Scene (JSON)");

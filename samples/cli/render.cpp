@@ -18,7 +18,7 @@
 namespace cli {
 namespace {
 
-struct Options {
+struct RenderOptions {
   std::string scene;
   std::string exr;
   std::string png;
@@ -66,8 +66,8 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-// Options that are short for assignments.
-std::vector<std::string> assignmentsOf(const Options& options) {
+// RenderOptions that are short for assignments.
+std::vector<std::string> assignmentsOf(const RenderOptions& options) {
   std::vector<std::string> assignments = options.assignments;
   if (!options.quality.empty()) {
     assignments.push_back("quality.level=" + options.quality);
@@ -120,7 +120,7 @@ double pngStops(const host::Scene& scene) {
   return scene.png.exposureStops - std::log2(scene.camera.preExposure);
 }
 
-void writePictures(const Options& options, WlkContext context, WlkView view,
+void writePictures(const RenderOptions& options, WlkContext context, WlkView view,
                    const host::Scene& scene, const host::Image& opaque) {
   host::Image picture;
   if (scene.view.composite == WLK_COMPOSITE_SEPARATE) {
@@ -137,7 +137,7 @@ void writePictures(const Options& options, WlkContext context, WlkView view,
   }
 }
 
-void run(const Options& options) {
+void run(const RenderOptions& options) {
   const host::Scene scene =
       host::parseScene(host::readSceneJson(options.scene, assignmentsOf(options)), options.scene);
   for (const std::string* file : {&options.exr, &options.png, &options.stats}) {
@@ -186,7 +186,7 @@ void run(const Options& options) {
 
 void addRender(CLI::App& app) {
   CLI::App* command = app.add_subcommand("render", "Render a scene file to an EXR picture");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RenderOptions>();
   command->add_option("SCENE", options->scene, "Scene (JSON), see docs/scene-format.md")
       ->required();
   command->add_option("-o,--output", options->exr, "Picture (EXR, linear)")->required();
