@@ -42,10 +42,43 @@ WLK_API WlkResult wlkEvalSky(WlkContext context, const WlkRayBatch* batch, doubl
 WLK_API WlkResult wlkEvalLight(WlkContext context, uint32_t lightIndex, const double position[3],
                                double irradiance[3]);
 
-/** Phase function of a medium, 1/sr, for `count` scattering angles (rad, 0 is forward, [0, pi]);
- *  integrates to 1 over the sphere. Needs no context. [F] */
-WLK_API WlkResult wlkEvalPhase(const WlkMediumInfo* medium, uint32_t count,
-                               const double* scatteringAngle, double* phase);
+/** Scattering angles for wlkEvalPhase and random numbers for wlkSamplePhase. */
+enum {
+  /** Single scattering. */
+  WLK_ORDER_SINGLE = 0,
+  /** Exactly `order` scatterings, [R04] Eq. 20. */
+  WLK_ORDER_INTEGER = 1,
+  /** Light scattered at least once over `opticalDepth`: Poisson counts. */
+  WLK_ORDER_POISSON = 2
+};
+
+typedef struct WlkPhaseQuery {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  WlkMedium medium;
+  /** WLK_ORDER_*. Default SINGLE. */
+  uint32_t orderKind;
+  /** For INTEGER. [1, 1000], default 1. */
+  uint32_t order;
+  /** For POISSON. [0, 1e4], default 1. */
+  double opticalDepth;
+  uint32_t count;
+  uint32_t reserved0;
+  /** `count` scattering angles. rad, 0 is forward, [0, pi]. */
+  const double* scatteringAngle;
+} WlkPhaseQuery;
+
+/** Phase function of a medium, 1/sr: 3 values (RGB) per angle, each channel with integral 1 over the
+ *  sphere. [C] */
+WLK_API WlkResult wlkEvalPhase(WlkContext context, const WlkPhaseQuery* query, double* phase);
+
+/** Scattering angles (rad) of one channel (0..2) of a medium for `count` random numbers in [0, 1),
+ *  by inversion, and the density per sr at each: the value of wlkEvalPhase. `density` may be null.
+ *  [C] */
+WLK_API WlkResult wlkSamplePhase(WlkContext context, WlkMedium medium, uint32_t channel,
+                                 uint32_t count, const double* random, double* scatteringAngle,
+                                 double* density);
 
 #ifdef __cplusplus
 }

@@ -66,13 +66,23 @@ typedef struct WlkLight {
 WLK_API WlkResult wlkSetLights(WlkContext context, uint32_t count, uint32_t stride,
                                const WlkLight* lights);
 
-/** A fog layer of water droplets: extinction falls exponentially with altitude, phase function
- *  HG + Draine of the droplet size ([J23] Eq. 2-7). */
+enum {
+  /** The type's choice: TABLE where there is one. */
+  WLK_PHASE_DEFAULT = 0,
+  /** Closed form: HG + Draine of the droplet diameter ([J23] Eq. 2-7 and, below 5 um, the fits of
+   *  its supplement). One function for red, green and blue; no bows, no glory. */
+  WLK_PHASE_ANALYTIC = 1,
+  /** Table per wavelength from Mie theory or ray-traced crystals. */
+  WLK_PHASE_TABLE = 2
+};
+
+/** A fog layer of water droplets: extinction falls exponentially with altitude, phase function of
+ *  the droplet size. */
 typedef struct WlkFog {
   uint32_t sType;
   uint32_t structSize;
   const void* next;
-  /** Median droplet diameter. um, [5, 50], default 10. */
+  /** Median droplet diameter. um, [0.1, 50], default 10. */
   float dropletDiameter_um;
   /** Extinction coefficient at baseAltitude. 1/m, [0, 10], default 0.002. */
   float extinction;
@@ -82,39 +92,104 @@ typedef struct WlkFog {
   float scaleHeight;
   /** Single-scattering albedo. RGB, [0, 1], default 1. */
   float singleScatteringAlbedo[3];
-  uint32_t reserved0;
+  /** WLK_PHASE_*. Default WLK_PHASE_DEFAULT: TABLE. */
+  uint32_t phaseModel;
 } WlkFog;
 
 /** Sets the fog layer; null means none (the default). [C] */
 WLK_API WlkResult wlkSetFog(WlkContext context, const WlkFog* fog);
 
+/** Kinds of particles; sizes are medians of number, log-normal with standard deviation `spread`. */
 enum {
-  /** HG + Draine blend of water droplets, from dropletDiameter_um. [J23] Eq. 3-7. */
-  WLK_PHASE_HG_DRAINE = 0,
+  /** Cloud droplets, [5, 50] um, default 20 ([R04] Table 2). */
+  WLK_PARTICLE_CLOUD = 0,
+  /** Fog droplets, [0.1, 50] um, default 10. */
+  WLK_PARTICLE_FOG = 1,
+  /** Wet haze, [0.1, 5] um, default 0.6. */
+  WLK_PARTICLE_HAZE = 2,
+  /** Rain drops, [100, 2000] um, default 2000 ([R04] Table 2). Light turned by less than 0.5
+   *  degrees counts as unscattered (WlkMediumOptics::deltaFraction). */
+  WLK_PARTICLE_RAIN = 3,
+  /** Hexagonal ice columns (length 2.5 diameters) in random orientation, over 100 um.
+   *  Diffraction and light through parallel faces count as unscattered. */
+  WLK_PARTICLE_ICE_COLUMN = 4,
+  /** Hexagonal ice plates (thickness a quarter of the diameter), the same. */
+  WLK_PARTICLE_ICE_PLATE = 5,
+  /** Snow: strongly rough crystals, the same. */
+  WLK_PARTICLE_SNOW = 6,
+  /** Air molecules: Rayleigh, [R04] Eq. 1. */
+  WLK_PARTICLE_AIR = 7,
   /** Henyey-Greenstein, from asymmetry. */
-  WLK_PHASE_HENYEY_GREENSTEIN = 1,
-  /** Rayleigh. [R04] Eq. 1. */
-  WLK_PHASE_RAYLEIGH = 2
+  WLK_PARTICLE_HENYEY_GREENSTEIN = 8,
+  /** A table of the caller's: userAngle and userPhase. */
+  WLK_PARTICLE_USER = 9
 };
 
+/** Zero in a number means the type's default. */
 typedef struct WlkMediumInfo {
   uint32_t sType;
   uint32_t structSize;
   const void* next;
-  /** WLK_PHASE_*. Default WLK_PHASE_HG_DRAINE. */
-  uint32_t phase;
-  /** Median droplet diameter, for WLK_PHASE_HG_DRAINE. um, [5, 50], default 20. */
-  float dropletDiameter_um;
-  /** Mean cosine, for WLK_PHASE_HENYEY_GREENSTEIN. [-0.999, 0.999], default 0.85. */
+  /** WLK_PARTICLE_*. Default WLK_PARTICLE_CLOUD. */
+  uint32_t particle;
+  /** WLK_PHASE_*. ANALYTIC exists for CLOUD, FOG, HAZE, AIR and HENYEY_GREENSTEIN. Default
+   *  WLK_PHASE_DEFAULT. */
+  uint32_t phaseModel;
+  /** Median diameter, for droplets and drops. um, 0 or the type's range. Default 0. */
+  float diameter_um;
+  /** Standard deviation of ln(diameter). CLOUD, FOG and HAZE: 0 or [0.05, 0.5], default 0.25
+   *  ([J23] 1.1); other values than 0.25 need TABLE and 0.1 to 2 s of computing. RAIN: 0 or 0.25. */
+  float spread;
+  /** Standard deviation of the facets' tilt, a slope. ICE: [0, 0.2], default 0. SNOW: 0 or
+   *  [0.3, 0.6], default 0.45. */
+  float roughness;
+  /** Mean cosine, for HENYEY_GREENSTEIN. [-0.999, 0.999], default 0.85. */
   float asymmetry;
   /** Single-scattering albedo. RGB, [0, 1], default 1. */
   float singleScatteringAlbedo[3];
+  /** One wavelength for all three channels; 0 means red 0.68, green 0.55 and blue 0.44. um, 0 or
+   *  [0.4, 0.7]; other than 0 not for USER. Default 0. */
+  float wavelength_um;
+  /** For USER: scattering angles in rad, rising from 0 to pi, and 3 values (RGB) for each, any unit,
+   *  >= 0. Between them ln P is interpolated. Read during the call only. Default null. */
+  const double* userAngle;
+  const double* userPhase;
+  /** [2, 65536] for USER, else 0. Default 0. */
+  uint32_t userCount;
+  uint32_t reserved0;
 } WlkMediumInfo;
 
+/** Creates a medium. [C] Errors: INVALID_ARGUMENT, OUT_OF_HOST_MEMORY. */
 WLK_API WlkResult wlkCreateMedium(WlkContext context, const WlkMediumInfo* info,
                                   WlkMedium* medium); /* [C] */
 /** Errors: WRONG_STATE while a volume uses it. [C] */
 WLK_API WlkResult wlkDestroyMedium(WlkContext context, WlkMedium medium);
+
+/** What one particle of a medium does to light. RGB. */
+typedef struct WlkMediumOptics {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Extinction cross-section over mean geometric cross-section; 2 for large particles, 0 where
+   *  there is no size (AIR, HENYEY_GREENSTEIN, USER). */
+  float extinctionEfficiency[3];
+  /** <r^3> / <r^2> of the sizes; 0 where there is no size. um. */
+  float effectiveRadius_um;
+  /** Mean extinction cross-section of one particle: the extinction coefficient is this times the
+   *  number of particles per volume. m^2; 0 where there is no size. */
+  double extinctionCrossSection[3];
+  /** Mean cosine of the phase function. */
+  float asymmetry[3];
+  /** Part of the phase function within 90 degrees. */
+  float forwardFraction[3];
+  /** Part of the scattered light that goes straight on and is not in the phase function. Volumes
+   *  take it off their extinction. */
+  float deltaFraction[3];
+  uint32_t reserved0;
+} WlkMediumOptics;
+
+WLK_API WlkResult wlkGetMediumOptics(WlkContext context, WlkMedium medium,
+                                     WlkMediumOptics* optics); /* [C] */
 
 /** Formats of volume data. */
 enum {
@@ -127,7 +202,8 @@ enum {
 /** One particle field of a volume. */
 typedef struct WlkVolumeField {
   WlkMedium medium;
-  /** Extinction coefficient at value 1: extinction = value * extinctionScale. 1/m, [0, 1e6]. */
+  /** Extinction coefficient at value 1, for all colours: extinction = value * extinctionScale.
+   *  1/m, [0, 1e6]. */
   float extinctionScale;
   uint32_t reserved0;
 } WlkVolumeField;
@@ -151,8 +227,8 @@ typedef struct WlkVolumeInfo {
   double worldFromVolume[12];
 } WlkVolumeInfo;
 
-/** Creates a volume of value 0 everywhere. [C]
- *  Errors: INVALID_ARGUMENT, INVALID_HANDLE (medium), LIMIT_EXCEEDED, OUT_OF_*. */
+/** Creates a volume of value 0 everywhere. [C] Errors: INVALID_ARGUMENT, INVALID_HANDLE (medium),
+ *  LIMIT_EXCEEDED, OUT_OF_*, WRONG_STATE in CPU mode. */
 WLK_API WlkResult wlkCreateVolume(WlkContext context, const WlkVolumeInfo* info, WlkVolume* volume);
 /** The memory is freed when no frame in flight uses it. [C] */
 WLK_API WlkResult wlkDestroyVolume(WlkContext context, WlkVolume volume);

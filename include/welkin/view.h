@@ -90,7 +90,9 @@ enum {
   /** Once-scattered light only. */
   WLK_SCATTERING_SINGLE = 1,
   /** Forward multiple scattering, [R04] Eq. 20-26 as corrected in docs/equations.md. */
-  WLK_SCATTERING_FORWARD = 2
+  WLK_SCATTERING_FORWARD = 2,
+  /** The same with the paper's whole number of scatterings, ceil(n), for comparison. */
+  WLK_SCATTERING_FORWARD_INTEGER = 3
 };
 
 enum {

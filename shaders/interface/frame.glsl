@@ -11,8 +11,7 @@ struct FrameUniforms {
   vec4 lightDisk;       // RGB radiance of the disk; w: 1 - cos(angular radius)
   vec4 air;             // RGB scattering at sea level, scale height
   vec4 fog;             // extinction at base, base altitude, scale height, planet radius
-  vec4 fogAlbedo;       // RGB; w: weightD of the fog's phase function
-  vec4 fogPhase;        // gHg, gapHg, gD, gapD
-  vec4 ground;          // RGB albedo; w: alpha of the fog's phase function
+  vec4 fogAlbedo;       // RGB
+  vec4 ground;          // RGB albedo
   vec4 volumeRect;      // x0, y0, x1, y1: pixels any volume may cover
 };

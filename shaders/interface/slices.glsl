@@ -13,9 +13,6 @@ struct VolumeUniforms {
   vec4 extinctionScale;  // per field: extinction (1/m) at value 1
   vec4 meanAlbedo;       // per field
   vec4 albedo[4];        // per field RGB
-  vec4 phase[4];         // per field gHg, gapHg, gD, gapD
-  vec4 phaseMix;         // per field weightD
-  vec4 phaseAlpha;       // per field alpha
   vec4 rect;             // pixels x0, y0, x1, y1 of the eye pass
   vec4 forwardFraction[32];  // F(n) per depth node; component = field
 };

@@ -6,6 +6,8 @@
 #include "geometry.glsl"
 #include "phase/rayleigh.glsl"
 #include "phase/fog.glsl"
+#include "phase/sample.glsl"
+#include "phase/curve.glsl"
 #include "sky/segment.glsl"
 #include "sky/riley2004.glsl"
 #include "volume/slices.glsl"

@@ -38,7 +38,7 @@ AirNodes airNodes(vec3 direction, float begin, float end) {
     Air air = airOf(frame);
     AirRay ray = airRayOf(frame, direction);
     float airPhase = rayleighPhase(1.0f - ray.viewSun);
-    float droplets = FOG_ENABLED ? fogPhaseOf(frame, direction) : 0.0f;
+    vec3 droplets = FOG_ENABLED ? fogPhaseOf(frame, direction) : vec3(0.0f);
     AirResult sum;
     sum.radiance = vec3(0.0f);
     sum.opticalDepth = vec3(0.0f);

@@ -10,6 +10,7 @@ layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
 layout(set = 0, binding = 1, std430) readonly buffer FrameState { vec4 frameState[]; };
 layout(set = 0, binding = 2) uniform sampler2D depthImage;
 layout(set = 0, binding = 6, std430) buffer Counters { uint nonFinite; };
+layout(set = 0, binding = 7, std430) readonly buffer FogCurve { vec4 fogCurve[]; };
 
 #include "ray.glsl"
 
@@ -42,7 +43,7 @@ PixelLayer pixelLayer(uvec2 pixel) {
 
   if (AIR_ENABLED || FOG_ENABLED) {
     float airPhase = rayleighPhase(1.0f - ray.viewSun);
-    float droplets = FOG_ENABLED ? fogPhaseOf(frame, direction) : 0.0f;
+    vec3 droplets = FOG_ENABLED ? fogPhaseOf(frame, direction) : vec3(0.0f);
     AirResult result = airAlongRay(air, ray, reach, airPhase, droplets, frame.light.w);
     transmittance = exp(-result.opticalDepth);
     if (LIGHT_ENABLED) {

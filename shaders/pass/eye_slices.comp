@@ -25,6 +25,7 @@ layout(set = 0, binding = 8) uniform sampler2DArray scatteringTable;
 layout(set = 0, binding = 9) uniform sampler2D depthImage;
 layout(set = 0, binding = 10, std430) buffer FrameState { vec4 frameState[]; };
 layout(set = 0, binding = 11, std430) buffer VolumeState { vec4 volumeState[]; };
+layout(set = 0, binding = 12, std430) readonly buffer FogCurve { vec4 fogCurve[]; };
 layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "ray.glsl"
@@ -35,46 +36,32 @@ const float RAY_ENDS = 1.0e-6f;    // transmittance at which a ray ends; bounds 
 const float LONGEST_RAY = 1.0e7f; // m inside one volume
 const uint MAX_SUBSTEPS = 256u;   // per slab, for rays that run along it
 
-FogPhase fieldPhase(int i) {
-  FogPhase p;
-  p.gHg = volume.phase[i].x;
-  p.gapHg = volume.phase[i].y;
-  p.gD = volume.phase[i].z;
-  p.gapD = volume.phase[i].w;
-  p.alpha = volume.phaseAlpha[i];
-  p.weightD = volume.phaseMix[i];
-  return p;
+// ln of the source distribution (1/sr, RGB) of a field: x along the scattering depth, whose first
+// node is single scattering, y along the angle.
+vec3 fieldSource(uint field, float depth, float angle) {
+  vec2 uv = (vec2(depth * 31.0f, angle * float(CURVE_NODES - 1)) + 0.5f) /
+            vec2(32.0f, float(CURVE_NODES));
+  return exp(textureLod(scatteringTable, vec3(uv, float(field)), 0.0f).xyz);
 }
 
-// Radiance scattered towards the eye per extinction-weighted phase: sum of the fields'
-// extinction * albedo * light * phase. `phase` holds the fields' single-scattering values.
-vec3 scatteredLight(vec4 extinction, vec4 phase, vec2 light, float angle) {
+// Radiance scattered towards the eye per unit irradiance: sum of the fields' extinction * albedo *
+// light * phase. Of the four `single`, values of single scattering.
+vec3 scatteredLight(vec4 extinction, vec3 single[4], vec2 light, float angle) {
   float tau = light.x;
+  vec3 sum = vec3(0.0f);
   if (!FORWARD_SCATTERING) {
-    float direct = exp(-tau);
-    vec4 weight = extinction * phase;
-    vec3 sum = volume.albedo[0].xyz * weight.x;
-    if (FIELD_COUNT > 1u) {
-      sum += volume.albedo[1].xyz * weight.y;
+    for (int i = 0; i < int(FIELD_COUNT); ++i) {
+      sum += volume.albedo[i].xyz * single[i] * extinction[i];
     }
-    if (FIELD_COUNT > 2u) {
-      sum += volume.albedo[2].xyz * weight.z;
-    }
-    if (FIELD_COUNT > 3u) {
-      sum += volume.albedo[3].xyz * weight.w;
-    }
-    return sum * direct;
+    return sum * exp(-tau);
   }
   // phi was accumulated with the mean albedo; each colour scales it by its own.
-  vec3 sum = vec3(0.0f);
   for (uint i = 0u; i < FIELD_COUNT; ++i) {
     float mean = max(volume.meanAlbedo[i], 1.0e-6f);
     vec3 albedo = volume.albedo[i].xyz;
     vec3 intensity = exp(min(light.y * albedo / mean - tau, vec3(0.0f)));
-    float n = tau * volume.meanAlbedo[i];
-    vec2 uv = (vec2(angle * 127.0f, depthCoordinate(n) * 31.0f) + 0.5f) / vec2(128.0f, 32.0f);
-    float ratio = exp(textureLod(scatteringTable, vec3(uv, float(i)), 0.0f).x);
-    sum += intensity * albedo * (extinction[i] * phase[i] * ratio);
+    vec3 source = fieldSource(i, depthCoordinate(tau * volume.meanAlbedo[i]), angle);
+    sum += intensity * albedo * source * extinction[i];
   }
   return sum;
 }
@@ -114,19 +101,14 @@ void main() {
   }
 
   if (last > t && !(rate > 0.0f && state.w < RAY_ENDS)) {
-    vec4 phase = vec4(0.0f);
-    float y = oneMinusCosine(direction, frame.light.xyz);
-    float angle = phaseCoordinate(y);
-    if (LIGHT_ENABLED) {
-      phase.x = fogPhase(fieldPhase(0), y);
-      if (FIELD_COUNT > 1u) {
-        phase.y = fogPhase(fieldPhase(1), y);
-      }
-      if (FIELD_COUNT > 2u) {
-        phase.z = fogPhase(fieldPhase(2), y);
-      }
-      if (FIELD_COUNT > 3u) {
-        phase.w = fogPhase(fieldPhase(3), y);
+    float angle = phaseCoordinate(oneMinusCosine(direction, frame.light.xyz));
+    vec3 single[4];
+    for (int i = 0; i < 4; ++i) {
+      single[i] = vec3(0.0f);
+    }
+    if (LIGHT_ENABLED && !FORWARD_SCATTERING) {
+      for (int i = 0; i < int(FIELD_COUNT); ++i) {
+        single[i] = fieldSource(uint(i), 0.0f, angle);
       }
     }
     AirNodes nodes = airNodes(direction, span.begin, span.end);
@@ -154,7 +136,7 @@ void main() {
         vec3 at = lightOrigin + middle * lightStep;
         at.z = (at.z - float(slice.firstSlab) + 0.5f) / layers;
         vec2 light = textureLod(lightBuffer, at, 0.0f).xy;
-        source = scatteredLight(extinction, phase, light, angle) * air.light;
+        source = scatteredLight(extinction, single, light, angle) * air.light;
       }
       float average = phi1(x) * dt;  // (1 - e^-x) / beta without the division
       float opacity = x * phi1(x);

@@ -24,8 +24,8 @@ struct Retired {
   explicit Retired(std::pmr::memory_resource* memory) : view(memory) {}
   uint64_t frame = 0;
   ViewResources view;
-  std::array<vk::Image, WLK_MAX_FIELDS + 1> images;
-  std::array<vk::Buffer, 2> buffers;
+  std::array<vk::Image, WLK_MAX_FIELDS + SCATTERING_FORMS> images;
+  std::array<vk::Buffer, SCATTERING_FORMS> buffers;
 };
 
 // A view of an engine's image, kept until wlkVulkanForgetImage.

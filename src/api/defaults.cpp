@@ -69,7 +69,6 @@ WlkFog fog() {
 
 WlkMediumInfo medium() {
   auto m = blank<WlkMediumInfo>(WLK_STRUCT_MEDIUM_INFO);
-  m.dropletDiameter_um = 20.0f;
   m.asymmetry = 0.85f;
   assign(m.singleScatteringAlbedo, {1.0f, 1.0f, 1.0f});
   return m;

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "api/context.hpp"
-#include "api/volume_data.hpp"
+#include "api/validate.hpp"
 #include "model/evaluate.hpp"
 #include "particles/medium.hpp"
 
@@ -15,7 +15,7 @@ using namespace welkin;
 // What a ray query needs of the scene.
 struct AirQuery {
   AirInput air;
-  FogPhaseParams fogPhase;
+  const Particle* droplets = nullptr;  // where there is fog
   glm::dvec3 toLight{0, 1, 0};
   double angularRadius = 0;
   bool light = false;
@@ -40,7 +40,7 @@ AirQuery queryOf(const AirState& state) {
     for (int i = 0; i < 3; ++i) {
       q.air.fogAlbedo[i] = state.fog->singleScatteringAlbedo[i];
     }
-    q.fogPhase = phaseParameters(PhaseKind::HgDraine, state.fog->dropletDiameter_um, 0);
+    q.droplets = &state.fogPhase->particle;
   }
   if (state.light) {
     const WlkLight& light = *state.light;
@@ -84,7 +84,11 @@ void evaluateRay(const AirQuery& q, const WlkPlanet& planet, const WlkRay& ray, 
   const double distance = ground >= 0 ? std::min(ground, ray.length) : ray.length;
   const glm::dvec3 apart = direction - q.toLight;
   const double y = 0.5 * glm::dot(apart, apart);
-  const double phase = q.air.fogExtinction > 0 ? evalPhase(q.fogPhase, y) : 0.0;
+  double phase[3] = {0, 0, 0};
+  for (size_t i = 0; i < 3 && q.air.fogExtinction > 0; ++i) {
+    phase[i] = q.droplets->analytic ? evalPhase(q.droplets->phase, y)
+                                    : evalPhaseCurve(q.droplets->curve, i, y);
+  }
   double scattered[3];
   double depth[3];
   evalAirRay(q.air, frame.altitude, viewMu, glm::dot(q.toLight, frame.up), 1.0 - y, distance, phase,
@@ -154,28 +158,6 @@ WlkResult wlkEvalLight(WlkContext context, uint32_t lightIndex, const double pos
                    &visible);
     for (int i = 0; i < 3; ++i) {
       irradiance[i] = q.irradiance[i] * std::exp(-depth[i]) * visible;
-    }
-    return WLK_SUCCESS;
-  });
-}
-
-WlkResult wlkEvalPhase(const WlkMediumInfo* medium, uint32_t count, const double* scatteringAngle,
-                       double* phase) {
-  return guarded([&] {
-    const Medium value = checkedMedium(medium);
-    if (count > 0) {
-      checkPointer(scatteringAngle, "scatteringAngle");
-      checkPointer(phase, "phase");
-    }
-    for (uint32_t i = 0; i < count; ++i) {
-      if (!(scatteringAngle[i] >= 0 && scatteringAngle[i] <= 3.1415926535897936)) {
-        fail(WLK_ERROR_INVALID_ARGUMENT, 0, "scatteringAngle", "angle %u is %g rad", i,
-             scatteringAngle[i]);
-      }
-    }
-    for (uint32_t i = 0; i < count; ++i) {
-      const double half = std::sin(0.5 * scatteringAngle[i]);
-      phase[i] = evalPhase(value.phase, 2.0 * half * half);
     }
     return WLK_SUCCESS;
   });

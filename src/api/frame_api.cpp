@@ -64,16 +64,17 @@ bool partial(const VkBufferImageCopy& region, const vk::Image& image) {
   return a.width != b.width || a.height != b.height || a.depth != b.depth;
 }
 
-void uploadTable(WlkContext_T& c, VkCommandBuffer commands, VolumeState& volume) {
+void uploadTable(WlkContext_T& c, VkCommandBuffer commands, uint32_t fieldCount,
+                 ScatteringTable& table) {
   VkBufferImageCopy region{};
-  region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, volume.fieldCount};
-  region.imageExtent = volume.table.info().extent;
-  copyInto(c.device->vk(), commands, volume.tableStaging, volume.table, region, false);
-  c.bytesUploaded += volume.tableStaging.size();
+  region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, fieldCount};
+  region.imageExtent = table.image.info().extent;
+  copyInto(c.device->vk(), commands, table.staging, table.image, region, false);
+  c.bytesUploaded += table.staging.size();
   ++c.updateCopies;
   Retired& entry = c.retired.emplace_back(&c.memory);
   entry.frame = c.frameIndex;
-  entry.buffers[0] = std::move(volume.tableStaging);
+  entry.buffers[0] = std::move(table.staging);
 }
 
 TargetImage ownTarget(const vk::Image& image, const WlkVulkanImageState& before,
@@ -163,13 +164,18 @@ void recordUpdate(WlkContext_T& c, VkCommandBuffer commands) {
   c.bytesUploaded = 0;
   c.updateCopies = 0;
   // Room first: from the first command on nothing may throw.
-  c.retired.reserve(c.retired.size() + c.pending.size() + c.volumes.count());
+  c.retired.reserve(c.retired.size() + c.pending.size() + SCATTERING_FORMS * c.volumes.count());
   clearOnce(vk, commands, c.dummy2d);
   clearOnce(vk, commands, c.dummy3d);
   for (uint32_t i = 0; i < c.volumes.slotCount(); ++i) {
     VolumeState* volume = c.volumes.at(i);
-    if (volume != nullptr && volume->tableStaging) {
-      uploadTable(c, commands, *volume);
+    if (volume == nullptr) {
+      continue;
+    }
+    for (ScatteringTable& table : volume->tables) {
+      if (table.staging) {
+        uploadTable(c, commands, volume->fieldCount, table);
+      }
     }
   }
   for (PendingUpload& upload : c.pending) {
@@ -253,6 +259,15 @@ void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
 
 }  // namespace welkin
 
+// The tables of the forms that views ask for.
+static void prepareTables(WlkContext_T& c, VolumeState& volume) {
+  for (uint32_t i = 0; i < c.views.slotCount(); ++i) {
+    if (const ViewState* view = c.views.at(i)) {
+      prepareVolume(*c.device, volume, resolveQuality(view->quality).form());
+    }
+  }
+}
+
 WlkResult wlkPrepare(WlkContext context) {
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
@@ -260,7 +275,7 @@ WlkResult wlkPrepare(WlkContext context) {
     std::array<bool, WLK_MAX_FIELDS + 1> used{};
     for (uint32_t i = 0; i < c.volumes.slotCount(); ++i) {
       if (VolumeState* volume = c.volumes.at(i)) {
-        prepareVolume(device, *volume);
+        prepareTables(c, *volume);
         used[volume->fieldCount] = true;
       }
     }

@@ -42,12 +42,29 @@ WlkLight checkedLight(const WlkLight* light) {
 WlkFog checkedFog(const WlkFog* fog) {
   const WlkFog f = copyStruct(fog, WLK_STRUCT_FOG);
   checkNoChain(fog);
-  checkRange(f.sType, "dropletDiameter_um", f.dropletDiameter_um, 5, 50);
+  checkRange(f.sType, "dropletDiameter_um", f.dropletDiameter_um, 0.1f, 50);
+  checkRange(f.sType, "phaseModel", f.phaseModel, WLK_PHASE_DEFAULT, WLK_PHASE_TABLE);
   checkRange(f.sType, "extinction", f.extinction, 0, 10);
   checkRange(f.sType, "baseAltitude", f.baseAltitude, -1e4, 1e5);
   checkRange(f.sType, "scaleHeight", f.scaleHeight, 1, 1e5);
   checkRange3(f.sType, "singleScatteringAlbedo", f.singleScatteringAlbedo, 0, 1);
   return f;
+}
+
+std::shared_ptr<const FogPhaseState> makeFogPhase(const WlkFog& fog) {
+  ParticleParams params;
+  params.diameter_um = static_cast<double>(fog.dropletDiameter_um);
+  params.spread = FOG.spread.initial;
+  params.analytic = fog.phaseModel == WLK_PHASE_ANALYTIC;
+  auto phase = std::make_shared<FogPhaseState>();
+  phase->particle = FOG.make(params);
+  for (size_t i = 0; i < phase->curve.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      phase->curve[i][c] =
+          static_cast<float>(phase->particle.curve.value[static_cast<size_t>(c)][i]);
+    }
+  }
+  return phase;
 }
 
 glm::dmat4x3 transformOf(const double* m) {
@@ -119,6 +136,12 @@ WlkResult wlkSetFog(WlkContext context, const WlkFog* fog) {
     if ((value && value->extinction > 0) != c.fogActive()) {
       c.invalidate();
     }
+    const bool same = value && c.air.fog && c.air.fogPhase &&
+                      value->dropletDiameter_um == c.air.fog->dropletDiameter_um &&
+                      value->phaseModel == c.air.fog->phaseModel;
+    if (value && !same) {
+      c.air.fogPhase = makeFogPhase(*value);
+    }
     c.air.fog = value;
     return WLK_SUCCESS;
   });
@@ -142,30 +165,6 @@ WlkResult wlkSetLights(WlkContext context, uint32_t count, uint32_t stride,
       value = checkedLight(lights);
     }
     c.air.light = value;
-    return WLK_SUCCESS;
-  });
-}
-
-WlkResult wlkCreateMedium(WlkContext context, const WlkMediumInfo* info, WlkMedium* medium) {
-  return guarded([&] {
-    WlkContext_T& c = checkContext(context);
-    checkPointer(medium, "medium");
-    const Medium value = checkedMedium(info);
-    const uint64_t id = c.media.create();
-    c.media.find(id)->medium = value;
-    medium->id = id;
-    return WLK_SUCCESS;
-  });
-}
-
-WlkResult wlkDestroyMedium(WlkContext context, WlkMedium medium) {
-  return guarded([&] {
-    WlkContext_T& c = checkContext(context);
-    if (c.medium(medium).users > 0) {
-      fail(WLK_ERROR_WRONG_STATE, 0, "medium", "%u volume fields use this medium",
-           c.medium(medium).users);
-    }
-    c.media.destroy(medium.id);
     return WLK_SUCCESS;
   });
 }
@@ -222,8 +221,10 @@ WlkResult wlkDestroyVolume(WlkContext context, WlkVolume volume) {
       entry.images[i] = std::move(state.fields[i].image);
       --c.media.find(state.fields[i].mediumId)->users;
     }
-    entry.images[WLK_MAX_FIELDS] = std::move(state.table);
-    entry.buffers[0] = std::move(state.tableStaging);
+    for (uint32_t form = 0; form < SCATTERING_FORMS; ++form) {
+      entry.images[WLK_MAX_FIELDS + form] = std::move(state.tables[form].image);
+      entry.buffers[form] = std::move(state.tables[form].staging);
+    }
     std::erase_if(c.pending, [&](const PendingUpload& p) { return p.volumeId == volume.id; });
     c.volumes.destroy(volume.id);
     c.forgetBindings();

@@ -26,6 +26,10 @@ const char* structName(uint32_t sType) {
       return "WlkFog";
     case WLK_STRUCT_MEDIUM_INFO:
       return "WlkMediumInfo";
+    case WLK_STRUCT_MEDIUM_OPTICS:
+      return "WlkMediumOptics";
+    case WLK_STRUCT_PHASE_QUERY:
+      return "WlkPhaseQuery";
     case WLK_STRUCT_VOLUME_INFO:
       return "WlkVolumeInfo";
     case WLK_STRUCT_VOLUME_UPLOAD:

@@ -44,22 +44,6 @@ uint64_t checkedSum(uint64_t a, uint64_t b, uint64_t c) {
 
 }  // namespace
 
-Medium checkedMedium(const WlkMediumInfo* info) {
-  const WlkMediumInfo m = copyStruct(info, WLK_STRUCT_MEDIUM_INFO);
-  checkNoChain(info);
-  checkRange(m.sType, "phase", m.phase, WLK_PHASE_HG_DRAINE, WLK_PHASE_RAYLEIGH);
-  if (m.phase == WLK_PHASE_HG_DRAINE) {
-    checkRange(m.sType, "dropletDiameter_um", m.dropletDiameter_um, 5, 50);
-  }
-  if (m.phase == WLK_PHASE_HENYEY_GREENSTEIN) {
-    checkRange(m.sType, "asymmetry", m.asymmetry, -0.999f, 0.999f);
-  }
-  checkRange3(m.sType, "singleScatteringAlbedo", m.singleScatteringAlbedo, 0, 1);
-  const double albedo[3] = {m.singleScatteringAlbedo[0], m.singleScatteringAlbedo[1],
-                            m.singleScatteringAlbedo[2]};
-  return makeMedium(static_cast<PhaseKind>(m.phase), m.dropletDiameter_um, m.asymmetry, albedo);
-}
-
 void checkUpload(const VolumeState& volume, const WlkVolumeUpload& u) {
   checkRange(u.sType, "field", u.field, 0, volume.fieldCount - 1);
   if (u.format < WLK_FORMAT_R32_FLOAT || u.format > WLK_FORMAT_R8_UNORM) {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Checks of media and voxel data, and the conversion of voxels on their way to the GPU.
+// Checks of voxel data, and the conversion of voxels on their way to the GPU.
 #pragma once
 
 #include "api/validate.hpp"
 #include "frame/scene.hpp"
 
 namespace welkin {
-
-Medium checkedMedium(const WlkMediumInfo* info);
 
 void checkUpload(const VolumeState& volume, const WlkVolumeUpload& upload);
 

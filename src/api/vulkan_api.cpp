@@ -123,7 +123,8 @@ bool everythingUploaded(const WlkContext_T& c) {
     if (volume == nullptr) {
       continue;
     }
-    if (blank(volume->table) ||
+    if (std::any_of(volume->tables.begin(), volume->tables.end(),
+                    [&](const ScatteringTable& table) { return blank(table.image); }) ||
         std::any_of(volume->fields.begin(), volume->fields.end(),
                     [&](const FieldState& field) { return blank(field.image); })) {
       return false;

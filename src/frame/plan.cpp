@@ -181,10 +181,10 @@ PlannedVolume planVolume(const PlanInput& in, const PlanVolume& volume) {
 }  // namespace
 
 SliceQuality resolveQuality(const WlkQuality& quality) {
-  constexpr std::array<SliceQuality, 4> LEVELS{{{32, 32, 96, false, true, false},
-                                                {64, 64, 160, false, true, false},
-                                                {128, 64, 256, false, true, false},
-                                                {256, 64, 448, false, true, false}}};
+  constexpr std::array<SliceQuality, 4> LEVELS{{{32, 32, 96, false, true, false, false},
+                                                {64, 64, 160, false, true, false, false},
+                                                {128, 64, 256, false, true, false, false},
+                                                {256, 64, 448, false, true, false, false}}};
   SliceQuality result = LEVELS[quality.level];
   if (quality.sliceCount != 0) {
     result.sliceCount = quality.sliceCount;
@@ -196,6 +196,7 @@ SliceQuality resolveQuality(const WlkQuality& quality) {
   }
   result.halfAngle = quality.slicing == WLK_SLICING_HALF_ANGLE;
   result.forwardScattering = quality.scattering != WLK_SCATTERING_SINGLE;
+  result.wholeOrders = quality.scattering == WLK_SCATTERING_FORWARD_INTEGER;
   result.noSkip = (quality.flags & WLK_QUALITY_NO_SKIP) != 0;
   return result;
 }

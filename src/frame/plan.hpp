@@ -19,7 +19,10 @@ struct SliceQuality {
   uint32_t lightSize;
   bool halfAngle;
   bool forwardScattering;
+  bool wholeOrders;  // ceil(n) scatterings instead of Poisson counts
   bool noSkip;
+  // Index of the scattering tables.
+  uint32_t form() const { return forwardScattering && wholeOrders ? 1 : 0; }
 };
 SliceQuality resolveQuality(const WlkQuality& quality);
 

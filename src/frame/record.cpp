@@ -125,6 +125,10 @@ class Recorder {
     FrameUniforms frame;
     fillFrame(*in_.air, view_, frame);
     std::memcpy(memory, &frame, sizeof frame);
+    if (plan.fog) {
+      std::memcpy(memory + view_.resources.fogOffset, in_.air->fogPhase->curve.data(),
+                  FOG_CURVE_BYTES);
+    }
     vk_.CmdResetQueryPool(commands_, slot_.queries, 0, view_.resources.queryCount);
     vk_.CmdFillBuffer(commands_, view_.resources.counters.handle(), counterOffset(), 16, 0);
     // Also orders this frame's first pass after the last frame's readers of the same buffers.
@@ -255,8 +259,10 @@ class Recorder {
       bindings_.image(set, vk::BIND_FIELD0 + i, view, pipelines_.linear(),
                       VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
-    bindings_.image(set, vk::BIND_TABLE, volume.state->table.view(), pipelines_.linear(),
-                    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    bindings_.image(set, vk::BIND_TABLE, volume.state->tables[quality_.form()].image.view(),
+                    pipelines_.linear(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    bindings_.buffer(set, vk::BIND_FOG_CURVE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                     r.uniforms.handle(), base + r.fogOffset, FOG_CURVE_BYTES);
     bindings_.image(set, vk::BIND_DEPTH, targets_.depth ? targets_.depth.view : in_.dummy2d,
                     pipelines_.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     const vk::Buffer& volumeState = r.volumeState ? r.volumeState : r.frameState;
@@ -297,6 +303,8 @@ class Recorder {
     BoundSet& set = slot_.composite;
     bindings_.buffer(set, vk::BIND_COMPOSITE_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
                      r.uniforms.handle(), in_.slot * r.slotStride, sizeof(FrameUniforms));
+    bindings_.buffer(set, vk::BIND_COMPOSITE_FOG_CURVE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                     r.uniforms.handle(), in_.slot * r.slotStride + r.fogOffset, FOG_CURVE_BYTES);
     bindings_.buffer(set, vk::BIND_COMPOSITE_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                      r.frameState.handle(), 0, r.frameState.size());
     bindings_.buffer(set, vk::BIND_COMPOSITE_COUNTERS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,

@@ -7,7 +7,7 @@
 
 #include "failure.hpp"
 #include "frame/uniforms.hpp"
-#include "tables/multiscatter.hpp"
+#include "tables/scattering_orders.hpp"
 
 namespace welkin {
 namespace {
@@ -53,7 +53,7 @@ VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t vol
   const uint32_t sets = slots * (volumes + 1);
   const std::array sizes{
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, slots * (2 * volumes + 1)},
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, slots * (2 * volumes + 2)},
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, slots * (3 * volumes + 3)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, slots * (volumes + 2)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, slots * (7 * volumes + 2)}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
@@ -158,6 +158,33 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
   }
 }
 
+constexpr uint32_t CURVE_POINTS = kCurveNodes;
+constexpr VkDeviceSize LAYER_BYTES = sizeof(float) * 4 * CURVE_POINTS * DEPTH_NODES;
+
+// A field's layer: RGBA float, depth along x, angle along y.
+void fillLayer(const Particle& particle, uint32_t form, char* layer,
+               std::array<float, DEPTH_NODES>& forwardFraction) {
+  const PhaseCurve& curve = particle.curve;
+  const SourceForm kind = form == 0 ? SourceForm::Poisson : SourceForm::Integer;
+  const SourceRows rows = particle.analytic && kind == SourceForm::Poisson
+                              ? closedSourceRows(curve.y, particle.phase)
+                              : sourceRows(curve.y, {curve.value[0], curve.value[1], curve.value[2]},
+                                           kind);
+  constexpr size_t DEPTHS = DEPTH_NODES;
+  for (size_t depth = 0; depth < DEPTHS; ++depth) {
+    for (size_t i = 0; i < CURVE_POINTS; ++i) {
+      float texel[4] = {};
+      for (size_t c = 0; c < SOURCE_CHANNELS; ++c) {
+        texel[c] = rows.logSource[(c * DEPTHS + depth) * rows.angles + i];
+      }
+      std::memcpy(layer + (i * DEPTHS + depth) * sizeof texel, texel, sizeof texel);
+    }
+    forwardFraction[depth] = (rows.forwardFraction[0][depth] + rows.forwardFraction[1][depth] +
+                              rows.forwardFraction[2][depth]) /
+                             3.0f;
+  }
+}
+
 }  // namespace
 
 VkFormat targetFormat(uint32_t welkinFormat) {
@@ -209,11 +236,14 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   const VkDeviceSize alignment =
       std::max<VkDeviceSize>(device.properties().limits.minUniformBufferOffsetAlignment, 16);
   r.volumeStride = alignUp(sizeof(VolumeUniforms), alignment);
-  r.slotStride = alignUp(sizeof(FrameUniforms), alignment) + volumeCount * r.volumeStride;
-  r.uniforms =
-      vk::Buffer(device, r.slotStride * framesInFlight, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, true);
   const VkDeviceSize counterStride =
       std::max<VkDeviceSize>(device.properties().limits.minStorageBufferOffsetAlignment, 16);
+  const VkDeviceSize both = std::max(alignment, counterStride);  // powers of two
+  r.fogOffset = alignUp(sizeof(FrameUniforms), both);
+  r.slotStride = r.fogOffset + alignUp(FOG_CURVE_BYTES + volumeCount * r.volumeStride, both);
+  r.uniforms = vk::Buffer(device, r.slotStride * framesInFlight,
+                          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                          true);
   r.counters =
       vk::Buffer(device, counterStride * framesInFlight,
                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
@@ -254,41 +284,36 @@ void destroyView(vk::Device& device, ViewState& view) {
   Draft::destroyObjects(device, view.resources);
 }
 
-void prepareVolume(vk::Device& device, VolumeState& volume) {
-  if (volume.table) {
+void prepareVolume(vk::Device& device, VolumeState& volume, uint32_t form) {
+  ScatteringTable& table = volume.tables[form];
+  if (table.image) {
     return;
   }
   vk::ImageInfo info;
-  info.format = VK_FORMAT_R32_SFLOAT;
-  info.extent = {kPhaseAngles, kPhaseDepths, 1};
+  info.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+  info.extent = {static_cast<uint32_t>(DEPTH_NODES), CURVE_POINTS, 1};
   info.layers = volume.fieldCount;
   info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   info.arrayView = true;
-  vk::Image table(device, info);
-  constexpr size_t layerBytes = sizeof(float) * kPhaseAngles * kPhaseDepths;
-  vk::Buffer staging(device, layerBytes * volume.fieldCount, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                     true);
+  ScatteringTable made;
+  made.image = vk::Image(device, info);
+  made.staging = vk::Buffer(device, LAYER_BYTES * volume.fieldCount,
+                            VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true);
+  auto* layers = static_cast<char*>(made.staging.data());
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
-    FieldState& field = volume.fields[i];
-    ForwardScatteringTable values;
-    bool copied = false;
-    for (uint32_t j = 0; j < i && !copied; ++j) {
-      if (volume.fields[j].mediumId == field.mediumId) {
-        std::memcpy(static_cast<char*>(staging.data()) + i * layerBytes,
-                    static_cast<char*>(staging.data()) + j * layerBytes, layerBytes);
-        field.forwardFraction = volume.fields[j].forwardFraction;
-        copied = true;
-      }
+    uint32_t twin = 0;
+    while (volume.fields[twin].mediumId != volume.fields[i].mediumId) {
+      ++twin;
     }
-    if (!copied) {
-      buildForwardScattering(field.medium.phase, values);
-      std::memcpy(static_cast<char*>(staging.data()) + i * layerBytes, values.logRatio.data(),
-                  layerBytes);
-      field.forwardFraction = values.forwardFraction;
+    if (twin < i) {
+      std::memcpy(layers + i * LAYER_BYTES, layers + twin * LAYER_BYTES, LAYER_BYTES);
+      made.forwardFraction[i] = made.forwardFraction[twin];
+    } else {
+      fillLayer(*volume.fields[i].medium.particle, form, layers + i * LAYER_BYTES,
+                made.forwardFraction[i]);
     }
   }
-  volume.table = std::move(table);
-  volume.tableStaging = std::move(staging);
+  table = std::move(made);
 }
 
 }  // namespace welkin

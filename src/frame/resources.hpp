@@ -5,6 +5,7 @@
 #include <span>
 
 #include "frame/scene.hpp"
+#include "frame/uniforms.hpp"
 
 namespace welkin {
 
@@ -23,8 +24,10 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
                  std::span<const uint32_t> fieldCounts, std::pmr::memory_resource* memory);
 void destroyView(vk::Device& device, ViewState& view);
 
-// Builds the volume's forward-scattering tables and the staging copy of them.
-void prepareVolume(vk::Device& device, VolumeState& volume);
+// Builds the volume's scattering tables of a form (SliceQuality::form) and the staging copy of them.
+void prepareVolume(vk::Device& device, VolumeState& volume, uint32_t form);
+
+constexpr VkDeviceSize FOG_CURVE_BYTES = sizeof(FogPhaseState::curve);
 
 // The key of a pass in the state a plan asks for.
 vk::PipelineKey lightKey(uint32_t fields, bool forward);

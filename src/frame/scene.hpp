@@ -19,7 +19,9 @@
 
 namespace welkin {
 
-constexpr int DEPTH_NODES = 32;  // of a forward-scattering table, see tables/multiscatter.hpp
+constexpr int DEPTH_NODES = 32;  // of a scattering table, see tables/multiscatter.hpp
+// Poisson counts of scatterings, and the paper's whole numbers.
+constexpr uint32_t SCATTERING_FORMS = 2;
 
 struct MediumState {
   Medium medium;
@@ -34,7 +36,13 @@ struct FieldState {
   float largest = 0;  // bound of the values in `image`
   vk::Image image;
   std::optional<WlkVulkanImage> external;
-  std::array<float, DEPTH_NODES> forwardFraction{};
+};
+
+// Source distributions of a volume's fields, one layer each, and their forward parts.
+struct ScatteringTable {
+  vk::Image image;
+  vk::Buffer staging;  // until the table is uploaded
+  std::array<std::array<float, DEPTH_NODES>, WLK_MAX_FIELDS> forwardFraction{};
 };
 
 // Data on its way to a field's image.
@@ -50,8 +58,7 @@ struct VolumeState {
   uint32_t fieldCount = 0;
   std::array<FieldState, WLK_MAX_FIELDS> fields;
   glm::dmat4x3 worldFromBox{1.0};
-  vk::Image table;          // forward-scattering tables, one layer per field
-  vk::Buffer tableStaging;  // until the table is uploaded
+  std::array<ScatteringTable, SCATTERING_FORMS> tables;  // those that views ask for
 
   bool anyDensity() const {
     for (uint32_t i = 0; i < fieldCount; ++i) {
@@ -103,8 +110,9 @@ struct ViewResources {
   vk::Image lightBuffer;
   vk::Buffer frameState;
   vk::Buffer volumeState;
-  vk::Buffer uniforms;
+  vk::Buffer uniforms;  // per slot: frame, fog curve, volumes
   VkDeviceSize slotStride = 0;
+  VkDeviceSize fogOffset = 0;
   VkDeviceSize volumeStride = 0;
   vk::Buffer counters;
   VkDescriptorPool pool = VK_NULL_HANDLE;

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/model.hpp"
-
 namespace welkin {
 namespace {
 
@@ -67,11 +65,7 @@ void fillFrame(const AirState& air, const ViewState& view, interface_::FrameUnif
   }
   if (air.fog) {
     out.fog = {air.fog->extinction, air.fog->baseAltitude, air.fog->scaleHeight, air.planet.radius};
-    const model::f64::FogPhase p = model::f64::fogPhaseFromDiameter(air.fog->dropletDiameter_um);
-    out.fogAlbedo = glm::vec4(vec(air.fog->singleScatteringAlbedo), static_cast<float>(p.weightD));
-    out.fogPhase = {static_cast<float>(p.gHg), static_cast<float>(p.gapHg),
-                    static_cast<float>(p.gD), static_cast<float>(p.gapD)};
-    out.ground.w = static_cast<float>(p.alpha);
+    out.fogAlbedo = glm::vec4(vec(air.fog->singleScatteringAlbedo), 0.0f);
   }
   const PixelRect& rect = view.plan.volumeRect;
   out.volumeRect = {static_cast<float>(rect.x0), static_cast<float>(rect.y0),
@@ -102,19 +96,17 @@ void fillVolume(const VolumeState& volume, const PlannedVolume& planned, const g
   out.texelC = glm::vec4(glm::vec3(inverse * layout.texelC), static_cast<float>(maxStep));
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
     const FieldState& field = volume.fields[i];
-    const Medium& m = field.medium;
+    const std::array<double, RGB> albedo = field.medium.scaledAlbedo();
     const int c = static_cast<int>(i);
     const bool present = field.external.has_value() || field.image;
-    out.extinctionScale[c] = present ? field.extinctionScale : 0.0f;
-    out.albedo[i] = glm::vec4(static_cast<float>(m.albedo[0]), static_cast<float>(m.albedo[1]),
-                              static_cast<float>(m.albedo[2]), 0.0f);
+    out.extinctionScale[c] =
+        present ? field.extinctionScale * static_cast<float>(field.medium.extinctionFactor()) : 0.0f;
+    out.albedo[i] = glm::vec4(static_cast<float>(albedo[0]), static_cast<float>(albedo[1]),
+                              static_cast<float>(albedo[2]), 0.0f);
     out.meanAlbedo[c] = (out.albedo[i].x + out.albedo[i].y + out.albedo[i].z) / 3.0f;
-    out.phase[i] = {static_cast<float>(m.phase.gHg), static_cast<float>(m.phase.gapHg),
-                    static_cast<float>(m.phase.gD), static_cast<float>(m.phase.gapD)};
-    out.phaseMix[c] = static_cast<float>(m.phase.weightD);
-    out.phaseAlpha[c] = static_cast<float>(m.phase.alpha);
-    for (size_t n = 0; n < field.forwardFraction.size(); ++n) {
-      out.forwardFraction[n][c] = field.forwardFraction[n];
+    const auto& forward = volume.tables[quality.form()].forwardFraction[i];
+    for (size_t n = 0; n < forward.size(); ++n) {
+      out.forwardFraction[n][c] = forward[n];
     }
   }
   out.rect = {static_cast<float>(planned.rect.x0), static_cast<float>(planned.rect.y0),

@@ -2,8 +2,10 @@
 // Fills the constants of the passes from scene and plan.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 
 #include "frame/scene.hpp"
 
@@ -18,10 +20,17 @@ using uint = uint32_t;
 #include "interface/slices.glsl"
 }  // namespace interface_
 
+// A fog's phase function, also as the GPU reads it: RGB in 1/sr at the nodes of a PhaseCurve.
+struct FogPhaseState {
+  Particle particle;
+  std::array<glm::vec4, kCurveNodes> curve{};
+};
+
 // The air the engine set, as the model wants it.
 struct AirState {
   std::optional<WlkSky> sky;
   std::optional<WlkFog> fog;
+  std::shared_ptr<const FogPhaseState> fogPhase;  // where there is fog
   WlkPlanet planet{};
   std::optional<WlkLight> light;
 };

@@ -33,7 +33,7 @@ Air airOf(const AirInput& input) {
 }  // namespace
 
 void evalAirRay(const AirInput& air, double altitude, double viewMu, double sunMu, double viewSun,
-                double distance, double fogPhase, double angularRadius, double radiance[3],
+                double distance, const double fogPhase[3], double angularRadius, double radiance[3],
                 double opticalDepth[3]) {
   AirRay ray;
   ray.altitude = altitude;
@@ -41,7 +41,8 @@ void evalAirRay(const AirInput& air, double altitude, double viewMu, double sunM
   ray.sunMu = sunMu;
   ray.viewSun = viewSun;
   const AirResult result =
-      airAlongRay(airOf(air), ray, distance, rayleighPhase(1.0 - viewSun), fogPhase, angularRadius);
+      airAlongRay(airOf(air), ray, distance, rayleighPhase(1.0 - viewSun),
+                                       vectorOf(fogPhase), angularRadius);
   store(result.radiance, radiance);
   store(result.opticalDepth, opticalDepth);
 }

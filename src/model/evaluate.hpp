@@ -18,9 +18,9 @@ struct AirInput {
 
 // Once-scattered radiance per unit irradiance of the light, and optical depth, along a ray of
 // `distance` m (may be infinite; ends at the caller's surface). viewMu and sunMu are the cosines of
-// view and light with the up at the origin, viewSun that between them, fogPhase in 1/sr.
+// view and light with the up at the origin, viewSun that between them, fogPhase RGB in 1/sr.
 void evalAirRay(const AirInput& air, double altitude, double viewMu, double sunMu, double viewSun,
-                double distance, double fogPhase, double angularRadius, double radiance[3],
+                double distance, const double fogPhase[3], double angularRadius, double radiance[3],
                 double opticalDepth[3]);
 
 // Optical depth from a point to the light, and the fraction of the light's disk (half angle

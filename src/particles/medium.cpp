@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "particles/medium.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "model/model.hpp"
+#include "particles/types/spectrum.hpp"
 
 namespace welkin {
 namespace {
 
 namespace text = model::f64;
-
-FogPhaseParams fromText(const text::FogPhase& p) {
-  return {p.gHg, p.gapHg, p.gD, p.gapD, p.alpha, p.weightD};
-}
 
 text::FogPhase toText(const FogPhaseParams& p) {
   text::FogPhase result;
@@ -25,46 +25,42 @@ text::FogPhase toText(const FogPhaseParams& p) {
 
 }  // namespace
 
-FogPhaseParams phaseParameters(PhaseKind kind, double diameter_um, double asymmetry) {
-  switch (kind) {
-    case PhaseKind::HenyeyGreenstein:
-      return fromText(text::henyeyGreensteinOnly(asymmetry));
-    case PhaseKind::Rayleigh:
-      return fromText(text::rayleighAsDraine());
-    case PhaseKind::HgDraine:
-      break;
+double Medium::extinctionFactor() const {
+  double straight = 0;
+  for (size_t c = 0; c < RGB; ++c) {
+    straight += particle->optics.delta[c] * albedo[c] / RGB;
   }
-  return fromText(text::fogPhaseFromDiameter(diameter_um));
+  return 1 - straight;
 }
 
-FogPhaseParamsF phaseParametersF(PhaseKind kind, double diameter_um, double asymmetry) {
-  const FogPhaseParams p = phaseParameters(kind, diameter_um, asymmetry);
-  return {static_cast<float>(p.gHg),  static_cast<float>(p.gapHg), static_cast<float>(p.gD),
-          static_cast<float>(p.gapD), static_cast<float>(p.alpha), static_cast<float>(p.weightD)};
+std::array<double, RGB> Medium::scaledAlbedo() const {
+  const double factor = extinctionFactor();
+  std::array<double, RGB> scaled{};
+  for (size_t c = 0; c < RGB; ++c) {
+    scaled[c] = std::clamp(albedo[c] * (1 - particle->optics.delta[c]) / factor, 0.0, 1.0);
+  }
+  return scaled;
 }
 
-Medium makeMedium(PhaseKind kind, double diameter_um, double asymmetry, const double albedo[3]) {
+Medium makeMedium(ParticleType type, const ParticleParams& params,
+                  const std::array<double, RGB>& albedo) {
   Medium medium;
-  medium.kind = kind;
-  medium.dropletDiameter_um = diameter_um;
-  medium.asymmetry = asymmetry;
-  for (int i = 0; i < 3; ++i) {
-    medium.albedo[i] = albedo[i];
-  }
-  medium.phase = phaseParameters(kind, diameter_um, asymmetry);
-  medium.phaseF = phaseParametersF(kind, diameter_um, asymmetry);
+  medium.particle = std::make_shared<const Particle>(particleKind(type).make(params));
+  medium.albedo = albedo;
   return medium;
 }
 
-double evalPhase(const FogPhaseParams& phase, double y) {
-  return text::fogPhase(toText(phase), y);
+double evalParticle(const Particle& particle, size_t channel, double angle) {
+  const double half = std::sin(0.5 * angle);
+  const double y = 2 * half * half;
+  return particle.analytic ? evalPhase(particle.phase, y)
+                           : evalPhaseCurve(particle.curve, channel, y);
 }
 
-double meanCosine(const FogPhaseParams& phase) {
-  const double g2 = phase.gD * phase.gD;
-  const double draine =
-      phase.gD * (1 + phase.alpha * (3 + 2 * g2) / 5) / (1 + phase.alpha * (1 + 2 * g2) / 3);
-  return (1 - phase.weightD) * phase.gHg + phase.weightD * draine;
+double sampleParticle(const Particle& particle, size_t channel, double random) {
+  const double y = particle.analytic ? text::sampleFogPhase(toText(particle.phase), random)
+                                     : samplePhaseCurve(particle.curve, channel, random);
+  return angleOf(y);
 }
 
 }  // namespace welkin

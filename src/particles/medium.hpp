@@ -1,51 +1,34 @@
 // SPDX-License-Identifier: MIT
-// A scattering medium as the tables and passes see it: phase function and albedo. No Vulkan.
+// A medium as volumes and fog see it: what its particles do to light, and its albedo. No Vulkan.
 #pragma once
 
-#include <cstdint>
+#include <array>
+#include <memory>
+
+#include "particles/catalogue.hpp"
 
 namespace welkin {
 
-// Equal to WLK_PHASE_*.
-enum class PhaseKind : uint32_t { HgDraine = 0, HenyeyGreenstein = 1, Rayleigh = 2 };
-
-// The six numbers of shaders/model/phase/fog.glsl, which serve every kind. gap = 1 - g, held as its
-// own number because 1 - g of a rounded g loses up to 3 digits.
-template <typename T>
-struct BasicPhaseParams {
-  T gHg = 0;
-  T gapHg = 1;
-  T gD = 0;
-  T gapD = 1;
-  T alpha = 0;
-  T weightD = 0;
-};
-using FogPhaseParams = BasicPhaseParams<double>;
-using FogPhaseParamsF = BasicPhaseParams<float>;
-
 struct Medium {
-  PhaseKind kind = PhaseKind::HgDraine;
-  double dropletDiameter_um = 20;  // for HgDraine, [5, 50]
-  double asymmetry = 0.85;         // for HenyeyGreenstein, (-1, 1)
-  double albedo[3] = {1, 1, 1};    // RGB, [0, 1]
-  FogPhaseParams phase;            // of the three fields above, by makeMedium
-  FogPhaseParamsF phaseF;          // the same, each rounded once
+  std::shared_ptr<const Particle> particle;
+  std::array<double, RGB> albedo{1, 1, 1};  // single-scattering, [0, 1]
+
+  // Light that goes straight on is neither scattered nor lost: volumes take it off, as
+  // P = f delta + (1 - f) P', extinction' = (1 - albedo f) extinction,
+  // albedo' = (1 - f) albedo / (1 - albedo f). Colours differ by less than 1e-2 in f: the extinction
+  // is that of their mean, the albedo makes up for it.
+  double extinctionFactor() const;
+  std::array<double, RGB> scaledAlbedo() const;
 };
 
-// Parameters of a phase function; diameter_um counts for HgDraine only (clamped to [5, 50]),
-// asymmetry for HenyeyGreenstein only.
-FogPhaseParams phaseParameters(PhaseKind kind, double diameter_um, double asymmetry);
+// A medium of one type. Fails with std::bad_alloc only.
+Medium makeMedium(ParticleType type, const ParticleParams& params,
+                  const std::array<double, RGB>& albedo);
 
-// The same for the GPU: computed in double, each number rounded once.
-FogPhaseParamsF phaseParametersF(PhaseKind kind, double diameter_um, double asymmetry);
+// P in 1/sr of a channel at a scattering angle in rad: the closed form where it is exact.
+double evalParticle(const Particle& particle, size_t channel, double angle);
 
-Medium makeMedium(PhaseKind kind, double diameter_um, double asymmetry, const double albedo[3]);
-
-// Phase function in 1/sr at y = 1 - cos(scattering angle), y in [0, 2].
-double evalPhase(const FogPhaseParams& phase, double y);
-
-// Mean cosine of the phase function, closed form. HG: g; Draine: g (1 + alpha (3 + 2 g^2) / 5) /
-// (1 + alpha (1 + 2 g^2) / 3).
-double meanCosine(const FogPhaseParams& phase);
+// The angle for a random number in [0, 1), by inversion.
+double sampleParticle(const Particle& particle, size_t channel, double random);
 
 }  // namespace welkin

@@ -54,6 +54,7 @@ struct Job {
   std::vector<double> weights;  // per node and distribution, the spectral weight included
   size_t distributions = 0;
   MieAngles angles;
+  double largestX = 0;
 };
 
 // Integral of the intensity over the backward hemisphere by the midpoint rule in the angle. The
@@ -85,8 +86,8 @@ std::vector<Sums> runChunk(const Job& job, size_t chunk) {
   for (size_t i = chunk; i < job.nodes.size(); i += CHUNKS) {
     const Node& node = job.nodes[i];
     const SpectralSample& sample = job.spectrum[node.sample];
-    const double k = 2 * PI / sample.wavelength_um;
-    const double x = k * node.radius_um;
+    const double x = std::min(2 * PI / sample.wavelength_um * node.radius_um, job.largestX);
+    const double k = x / node.radius_um;
     sphere.solve(x, sample.index);
     sphere.intensities(job.angles, intensity);
     const MieEfficiencies q = sphere.efficiencies();
@@ -147,20 +148,21 @@ std::vector<Sums> runChunks(const Job& job, unsigned threads) {
 }
 
 Job makeJob(std::span<const SizeDistribution> sizes, std::span<const SpectralSample> spectrum,
-            const AnglePlan& plan, double nodesPerSpread) {
+            const AnglePlan& plan, const MieSettings& settings) {
   double narrowest = 1;
   for (const SizeDistribution& one : sizes) {
     const double spread = logSpread(one);
     narrowest = spread > 0 ? std::min(narrowest, spread) : narrowest;
   }
   const auto samples = static_cast<double>(spectrum.size());
-  const double logStep = narrowest / std::max(nodesPerSpread / samples, MIN_PER_SPREAD);
+  const double logStep = narrowest / std::max(settings.nodesPerSpread / samples, MIN_PER_SPREAD);
   const auto alone = static_cast<size_t>(std::count_if(
       sizes.begin(), sizes.end(), [](const auto& one) { return logSpread(one) == 0; }));
   Job job;
   job.spectrum = spectrum;
   job.distributions = sizes.size();
   job.angles.assign(plan.angles);
+  job.largestX = settings.largestSizeParameter;
   for (size_t s = 0; s < spectrum.size(); ++s) {
     // Interleaved between the wavelengths: together a lattice rule over size and wavelength.
     const double offset = std::fmod((static_cast<double>(s) + 0.5) * GOLDEN, 1.0);
@@ -195,7 +197,7 @@ std::vector<MieAverage> averageMie(std::span<const SizeDistribution> sizes,
                                    std::span<const SpectralSample> spectrum,
                                    std::span<const double> angles, const MieSettings& settings) {
   const AnglePlan plan = settings.solarDisk ? solarDiskPlan(angles) : pointPlan(angles);
-  const Job job = makeJob(sizes, spectrum, plan, settings.nodesPerSpread);
+  const Job job = makeJob(sizes, spectrum, plan, settings);
   const std::vector<Sums> sums = runChunks(job, settings.threads);
   double light = 0;
   for (const SpectralSample& sample : spectrum) {

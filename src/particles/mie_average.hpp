@@ -34,6 +34,8 @@ struct MieSettings {
   double nodesPerSpread = 4096;
   // Convolve the phase function and the asymmetry with the sun's disk (solar_disk.hpp).
   bool solarDisk = false;
+  // Larger spheres scatter like the one of this size parameter, times their area: geometric optics.
+  double largestSizeParameter = 1e9;
   // The result does not depend on the number of threads.
   unsigned threads = 1;
 };

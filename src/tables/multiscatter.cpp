@@ -188,16 +188,13 @@ double forwardFraction(const FogPhaseParams& phase, double n) {
   return Source(phase, n).forwardFraction();
 }
 
-void buildForwardScattering(const FogPhaseParams& phase, ForwardScatteringTable& table) {
-  for (size_t row = 0; row < kPhaseDepths; ++row) {
-    const double n = depthNode(static_cast<double>(row) / (kPhaseDepths - 1));
-    const Source source(phase, n);
-    table.forwardFraction[row] = static_cast<float>(source.forwardFraction());
-    for (size_t column = 0; column < kPhaseAngles; ++column) {
-      const double y = phaseNode(static_cast<double>(column) / (kPhaseAngles - 1));
-      table.logRatio[row * kPhaseAngles + column] = static_cast<float>(std::log(source.ratio(y)));
-    }
+double sourceDistributions(const FogPhaseParams& phase, double n, std::span<const double> y,
+                           std::span<double> source) {
+  const Source one(phase, n);
+  for (size_t i = 0; i < y.size(); ++i) {
+    source[i] = one.ratio(y[i]) * evalPhase(phase, y[i]);
   }
+  return one.forwardFraction();
 }
 
 double forwardFractionInteger(std::span<const double> chi, int n) {

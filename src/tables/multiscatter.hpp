@@ -4,24 +4,15 @@
 // [R04] 4.2 Eq. 20-25, corrected: scattering counts are Poisson, not the integer ceil(n).
 #pragma once
 
-#include <array>
 #include <span>
 
-#include "particles/medium.hpp"
+#include "particles/fog_phase.hpp"
 
 namespace welkin {
 
-constexpr int kPhaseAngles = 128;
+// Nodes of scattering depth: node i stands at coordinate i / (N - 1), see depthCoordinate in
+// shaders/model/volume/forward_scattering.glsl.
 constexpr int kPhaseDepths = 32;
-
-// Nodes at texel centres: node i of N stands at coordinate i / (N - 1), see phaseCoordinate and
-// depthCoordinate in shaders/model/volume/forward_scattering.glsl.
-struct ForwardScatteringTable {
-  // ln(source distribution / phase function); row = depth node, column = angle node. Row 0 is 0.
-  std::array<float, static_cast<size_t>(kPhaseAngles) * kPhaseDepths> logRatio;
-  // F(n): part of the source distribution in the forward hemisphere.
-  std::array<float, kPhaseDepths> forwardFraction;
-};
 
 // Inverses of the table coordinates: 1 - cos(angle), and scattering depth.
 double phaseNode(double s);
@@ -30,11 +21,13 @@ double depthNode(double s);
 // chi_l = 2 pi * integral of P(mu) P_l(mu), l = 0 .. chi.size() - 1, closed form.
 void legendreMoments(const FogPhaseParams& phase, std::span<double> chi);
 
-// The table of one medium, 2 to 5 ms. Never negative, and without truncation error for any g: 2e-13
-// relative to direct Legendre sums for 5..50 um (the test holds 1e-9).
-void buildForwardScattering(const FogPhaseParams& phase, ForwardScatteringTable& table);
+// Source distribution at depth n, in 1/sr, at each y = 1 - cos; returns F(n). Never negative, and
+// without truncation error for any g: 2e-13 relative to direct Legendre sums for 5..50 um (the test
+// holds 1e-9). Row by row for 32 depths and 1024 angles: some 20 ms.
+double sourceDistributions(const FogPhaseParams& phase, double n, std::span<const double> y,
+                           std::span<double> source);
 
-// One entry: source distribution in 1/sr at y = 1 - cos, and F(n).
+// One entry, and F(n) alone.
 double sourceDistribution(const FogPhaseParams& phase, double n, double y);
 double forwardFraction(const FogPhaseParams& phase, double n);
 

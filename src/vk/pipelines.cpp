@@ -98,6 +98,7 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
     volume[BIND_LIGHT_STORAGE].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     volume[BIND_FRAME_STATE].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     volume[BIND_VOLUME_STATE].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    volume[BIND_FOG_CURVE].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     volumeSet_ = makeSetLayout(device_, volume);
     const std::array composite{
         binding(BIND_COMPOSITE_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
@@ -106,7 +107,8 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
         binding(BIND_COMPOSITE_INPUT, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
         binding(BIND_COMPOSITE_TARGET0, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE),
         binding(BIND_COMPOSITE_TARGET1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE),
-        binding(BIND_COMPOSITE_COUNTERS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)};
+        binding(BIND_COMPOSITE_COUNTERS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
+        binding(BIND_COMPOSITE_FOG_CURVE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)};
     compositeSet_ = makeSetLayout(device_, composite);
     volumeLayout_ = makeLayout(device_, volumeSet_);
     compositeLayout_ = makeLayout(device_, compositeSet_);

@@ -123,6 +123,7 @@ TEST(AerialPerspective, FollowsTheCloudSlabBySlab) {
       auto layer = welkin::make<WlkFog>();
       layer.extinction = 2e-5f;
       layer.scaleHeight = 3000;
+      layer.phaseModel = WLK_PHASE_ANALYTIC;
       welkin::check(wlkSetFog(scene.context(), fog ? &layer : nullptr));
       const Picture picture = scene.render();
       std::printf("cloud 15 km off, light at %3.0f, %s:", angle, fog ? "air and haze" : "air");

@@ -298,9 +298,9 @@ const real FOG_MATTERS = real(1e-4);
 
 // Light scattered once towards the ray's origin, and the ray's optical depth. `distance` may be
 // infinite; the caller ends it at the scene or at groundDistance. The light fades with
-// lightVisibility. airPhase and fogPhase are the phase functions' values (1/sr) at the angle
+// lightVisibility. airPhase and fogPhase (RGB) are the phase functions' values (1/sr) at the angle
 // between the light's travel and the way to the eye.
-AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, real fogPhase,
+AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, vec3 fogPhase,
                       real angularRadius) {
   AirPath path = clipToAir(air, ray, distance);
   real radius = air.planetRadius + path.altitude;
@@ -352,7 +352,7 @@ AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, real fo
     nextEnd.transmittance = safeExp3(-nextEnd.depth);
 
     vec3 airPart = air.airScattering * (span.air.column * airPhase);
-    vec3 fogPart = air.fogAlbedo * (air.fogExtinction * span.fog.column * fogPhase);
+    vec3 fogPart = air.fogAlbedo * fogPhase * (air.fogExtinction * span.fog.column);
     vec3 light;
     if (AIR_ENABLED && FOG_ENABLED) {
       vec2 rise = nextColumns - hereColumns;
@@ -383,4 +383,10 @@ AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, real fo
   }
   result.opticalDepth = depthOfColumns(air, viewColumns);
   return result;
+}
+
+// The same with one fog phase function for all colours.
+AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, real fogPhase,
+                      real angularRadius) {
+  return airAlongRay(air, ray, distance, airPhase, vec3(fogPhase), angularRadius);
 }

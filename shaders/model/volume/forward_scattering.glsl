@@ -6,8 +6,7 @@
 // depth rounded up; scattering counts are Poisson distributed with mean n instead, which is smooth
 // in n and exact per Legendre order. Light that has come to depth n has the moments
 // exp(-n (1 - chi_l)); scattered once more towards the eye, chi_l exp(-n (1 - chi_l)). The table
-// holds ln of the ratio of that to the single-scattering phase function, so the sharp peak stays
-// analytic and n = 0 is exactly single scattering.
+// holds ln of that per colour; n = 0 is single scattering.
 
 // Depth axis: ln(1 + n / N0), from 0 at n = 0 to 1 at NMAX. Of N0 = 1/4, 1/2 and 1, 1 has the
 // least error between 32 nodes over 5..50 um. At NMAX those media are isotropic within 0.3 %; pure

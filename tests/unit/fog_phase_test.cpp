@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Media: kinds, parameters and mean cosines.
-#include "particles/medium.hpp"
+// Phase functions in closed form: kinds, parameters and mean cosines.
+#include "particles/fog_phase.hpp"
 
 #include <gtest/gtest.h>
-#include <welkin/welkin.h>
 
 #include <cmath>
 
@@ -14,18 +13,12 @@ namespace {
 using namespace welkin;
 using reference::Real;
 
-constexpr double EPS_FLOAT = 0x1p-24;
-
-static_assert(static_cast<uint32_t>(PhaseKind::HgDraine) == WLK_PHASE_HG_DRAINE);
-static_assert(static_cast<uint32_t>(PhaseKind::HenyeyGreenstein) == WLK_PHASE_HENYEY_GREENSTEIN);
-static_assert(static_cast<uint32_t>(PhaseKind::Rayleigh) == WLK_PHASE_RAYLEIGH);
-
 double yOf(Real theta) {
   const Real s = std::sin(theta / 2);
   return static_cast<double>(2 * s * s);
 }
 
-TEST(Medium, EveryKindEvaluatesItsOwnPhaseFunction) {
+TEST(FogPhaseParams, EveryKindEvaluatesItsOwnPhaseFunction) {
   const reference::Fog fog(12);
   for (const Real theta : {0.0L, 0.01L, 0.5L, 1.6L, 2.9L}) {
     const Real c = std::cos(theta);
@@ -41,7 +34,7 @@ TEST(Medium, EveryKindEvaluatesItsOwnPhaseFunction) {
   }
 }
 
-TEST(Medium, MeanCosineMatchesQuadrature) {
+TEST(FogPhaseParams, MeanCosineMatchesQuadrature) {
   std::vector<FogPhaseParams> all = {phaseParameters(PhaseKind::Rayleigh, 0, 0)};
   for (const double d : {5.0, 11.0, 27.0, 50.0}) {
     all.push_back(phaseParameters(PhaseKind::HgDraine, d, 0));
@@ -57,30 +50,7 @@ TEST(Medium, MeanCosineMatchesQuadrature) {
   }
 }
 
-TEST(Medium, FloatParametersAreTheDoublesRoundedOnce) {
-  for (double d = 5; d <= 50; d += 0.37) {
-    const FogPhaseParams p = phaseParameters(PhaseKind::HgDraine, d, 0);
-    const FogPhaseParamsF q = phaseParametersF(PhaseKind::HgDraine, d, 0);
-    EXPECT_LE(std::abs(static_cast<double>(q.gapHg) / p.gapHg - 1), EPS_FLOAT);
-    EXPECT_LE(std::abs(static_cast<double>(q.gHg) / p.gHg - 1), EPS_FLOAT);
-    EXPECT_LE(std::abs(static_cast<double>(q.gapD) / p.gapD - 1), EPS_FLOAT);
-    EXPECT_LE(std::abs(static_cast<double>(q.weightD) / p.weightD - 1), EPS_FLOAT);
-  }
-}
-
-TEST(Medium, MakeMediumKeepsWhatItWasGiven) {
-  const double albedo[3] = {0.9, 0.95, 1.0};
-  const Medium m = makeMedium(PhaseKind::HgDraine, 14, 0.3, albedo);
-  EXPECT_EQ(m.kind, PhaseKind::HgDraine);
-  EXPECT_EQ(m.dropletDiameter_um, 14);
-  EXPECT_EQ(m.asymmetry, 0.3);
-  EXPECT_EQ(m.albedo[0], 0.9);
-  EXPECT_EQ(m.albedo[2], 1.0);
-  EXPECT_EQ(m.phase.gHg, phaseParameters(PhaseKind::HgDraine, 14, 0).gHg);
-  EXPECT_EQ(m.phaseF.gapHg, static_cast<float>(m.phase.gapHg));
-}
-
-TEST(Medium, GapIsHeldWithoutCancellation) {
+TEST(FogPhaseParams, GapIsHeldWithoutCancellation) {
   const FogPhaseParams p = phaseParameters(PhaseKind::HgDraine, 50, 0);
   const double truth = static_cast<double>(-std::expm1(-0.0990567L / (50 - 1.67154L)));
   EXPECT_NEAR(p.gapHg / truth, 1, 1e-14);
