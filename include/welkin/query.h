@@ -69,8 +69,8 @@ typedef struct WlkPhaseQuery {
   const double* scatteringAngle;
 } WlkPhaseQuery;
 
-/** Phase function of a medium, 1/sr: 3 values (RGB) per angle, each channel with integral 1 over the
- *  sphere. [C] */
+/** Phase function of a medium, 1/sr: 3 values (RGB) per angle, each channel with integral 1 over
+ * the sphere. [C] */
 WLK_API WlkResult wlkEvalPhase(WlkContext context, const WlkPhaseQuery* query, double* phase);
 
 /** Scattering angles (rad) of one channel (0..2) of a medium for `count` random numbers in [0, 1),

@@ -138,7 +138,8 @@ typedef struct WlkMediumInfo {
   /** Median diameter, for droplets and drops. um, 0 or the type's range. Default 0. */
   float diameter_um;
   /** Standard deviation of ln(diameter). CLOUD, FOG and HAZE: 0 or [0.05, 0.5], default 0.25
-   *  ([J23] 1.1); other values than 0.25 need TABLE and 0.1 to 2 s of computing. RAIN: 0 or 0.25. */
+   *  ([J23] 1.1); other values than 0.25 need TABLE and 0.1 to 2 s of computing. RAIN: 0 or 0.25.
+   */
   float spread;
   /** Standard deviation of the facets' tilt, a slope. ICE: [0, 0.2], default 0. SNOW: 0 or
    *  [0.3, 0.6], default 0.45. */
@@ -150,7 +151,8 @@ typedef struct WlkMediumInfo {
   /** One wavelength for all three channels; 0 means red 0.68, green 0.55 and blue 0.44. um, 0 or
    *  [0.4, 0.7]; other than 0 not for USER. Default 0. */
   float wavelength_um;
-  /** For USER: scattering angles in rad, rising from 0 to pi, and 3 values (RGB) for each, any unit,
+  /** For USER: scattering angles in rad, rising from 0 to pi, and 3 values (RGB) for each, any
+   * unit,
    *  >= 0. Between them ln P is interpolated. Read during the call only. Default null. */
   const double* userAngle;
   const double* userPhase;

@@ -144,9 +144,9 @@ Medium checkedMedium(const WlkMediumInfo* info) {
   const auto type = static_cast<ParticleType>(m.particle);
   const ParticleParams params = checkedParams(m, type);
   checkRange3(m.sType, "singleScatteringAlbedo", m.singleScatteringAlbedo, 0, 1);
-  return makeMedium(type, params,
-                    {m.singleScatteringAlbedo[0], m.singleScatteringAlbedo[1],
-                     m.singleScatteringAlbedo[2]});
+  return makeMedium(
+      type, params,
+      {m.singleScatteringAlbedo[0], m.singleScatteringAlbedo[1], m.singleScatteringAlbedo[2]});
 }
 
 }  // namespace
@@ -185,8 +185,8 @@ WlkResult wlkGetMediumOptics(WlkContext context, WlkMedium medium, WlkMediumOpti
     for (size_t i = 0; i < RGB; ++i) {
       optics->extinctionEfficiency[i] = static_cast<float>(o.efficiency[i]);
       optics->extinctionCrossSection[i] = o.efficiency[i] * o.area_um2 * M2_PER_UM2;
-      optics->asymmetry[i] = static_cast<float>(
-          particle.analytic ? meanCosine(particle.phase) : meanCosine(particle.curve, i));
+      optics->asymmetry[i] = static_cast<float>(particle.analytic ? meanCosine(particle.phase)
+                                                                  : meanCosine(particle.curve, i));
       optics->forwardFraction[i] = static_cast<float>(forwardFraction(particle.curve, i));
       optics->deltaFraction[i] = static_cast<float>(o.delta[i]);
     }
@@ -215,8 +215,8 @@ WlkResult wlkEvalPhase(WlkContext context, const WlkPhaseQuery* query, double* p
     for (uint32_t i = 0; i < q.count; ++i) {
       checkedAngle(q, i);
     }
-    const bool first = q.orderKind == WLK_ORDER_SINGLE ||
-                       (q.orderKind == WLK_ORDER_INTEGER && q.order == 1);
+    const bool first =
+        q.orderKind == WLK_ORDER_SINGLE || (q.orderKind == WLK_ORDER_INTEGER && q.order == 1);
     if (!first) {
       evalOrders(particle, q, phase);
       return WLK_SUCCESS;

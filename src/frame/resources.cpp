@@ -166,10 +166,10 @@ void fillLayer(const Particle& particle, uint32_t form, char* layer,
                std::array<float, DEPTH_NODES>& forwardFraction) {
   const PhaseCurve& curve = particle.curve;
   const SourceForm kind = form == 0 ? SourceForm::Poisson : SourceForm::Integer;
-  const SourceRows rows = particle.analytic && kind == SourceForm::Poisson
-                              ? closedSourceRows(curve.y, particle.phase)
-                              : sourceRows(curve.y, {curve.value[0], curve.value[1], curve.value[2]},
-                                           kind);
+  const SourceRows rows =
+      particle.analytic && kind == SourceForm::Poisson
+          ? closedSourceRows(curve.y, particle.phase)
+          : sourceRows(curve.y, {curve.value[0], curve.value[1], curve.value[2]}, kind);
   constexpr size_t DEPTHS = DEPTH_NODES;
   for (size_t depth = 0; depth < DEPTHS; ++depth) {
     for (size_t i = 0; i < CURVE_POINTS; ++i) {
@@ -241,9 +241,9 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   const VkDeviceSize both = std::max(alignment, counterStride);  // powers of two
   r.fogOffset = alignUp(sizeof(FrameUniforms), both);
   r.slotStride = r.fogOffset + alignUp(FOG_CURVE_BYTES + volumeCount * r.volumeStride, both);
-  r.uniforms = vk::Buffer(device, r.slotStride * framesInFlight,
-                          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                          true);
+  r.uniforms =
+      vk::Buffer(device, r.slotStride * framesInFlight,
+                 VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true);
   r.counters =
       vk::Buffer(device, counterStride * framesInFlight,
                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
@@ -297,8 +297,8 @@ void prepareVolume(vk::Device& device, VolumeState& volume, uint32_t form) {
   info.arrayView = true;
   ScatteringTable made;
   made.image = vk::Image(device, info);
-  made.staging = vk::Buffer(device, LAYER_BYTES * volume.fieldCount,
-                            VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true);
+  made.staging =
+      vk::Buffer(device, LAYER_BYTES * volume.fieldCount, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true);
   auto* layers = static_cast<char*>(made.staging.data());
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
     uint32_t twin = 0;

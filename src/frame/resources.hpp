@@ -24,7 +24,8 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
                  std::span<const uint32_t> fieldCounts, std::pmr::memory_resource* memory);
 void destroyView(vk::Device& device, ViewState& view);
 
-// Builds the volume's scattering tables of a form (SliceQuality::form) and the staging copy of them.
+// Builds the volume's scattering tables of a form (SliceQuality::form) and the staging copy of
+// them.
 void prepareVolume(vk::Device& device, VolumeState& volume, uint32_t form);
 
 constexpr VkDeviceSize FOG_CURVE_BYTES = sizeof(FogPhaseState::curve);

@@ -100,7 +100,8 @@ void fillVolume(const VolumeState& volume, const PlannedVolume& planned, const g
     const int c = static_cast<int>(i);
     const bool present = field.external.has_value() || field.image;
     out.extinctionScale[c] =
-        present ? field.extinctionScale * static_cast<float>(field.medium.extinctionFactor()) : 0.0f;
+        present ? field.extinctionScale * static_cast<float>(field.medium.extinctionFactor())
+                : 0.0f;
     out.albedo[i] = glm::vec4(static_cast<float>(albedo[0]), static_cast<float>(albedo[1]),
                               static_cast<float>(albedo[2]), 0.0f);
     out.meanAlbedo[c] = (out.albedo[i].x + out.albedo[i].y + out.albedo[i].z) / 3.0f;

@@ -40,8 +40,7 @@ void evalAirRay(const AirInput& air, double altitude, double viewMu, double sunM
   ray.viewMu = viewMu;
   ray.sunMu = sunMu;
   ray.viewSun = viewSun;
-  const AirResult result =
-      airAlongRay(airOf(air), ray, distance, rayleighPhase(1.0 - viewSun),
+  const AirResult result = airAlongRay(airOf(air), ray, distance, rayleighPhase(1.0 - viewSun),
                                        vectorOf(fogPhase), angularRadius);
   store(result.radiance, radiance);
   store(result.opticalDepth, opticalDepth);

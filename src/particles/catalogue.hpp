@@ -30,12 +30,12 @@ enum class ParticleType : uint32_t {
 constexpr size_t PARTICLE_TYPES = 10;
 
 struct ParticleParams {
-  double diameter_um = 0;    // median; the kind's range
-  double spread = 0;         // standard deviation of ln(diameter)
-  double roughness = 0;      // standard deviation of the facets' slope
-  double asymmetry = 0.85;   // HenyeyGreenstein
-  double wavelength_um = 0;  // 0: red, green and blue
-  bool analytic = false;     // the closed form
+  double diameter_um = 0;             // median; the kind's range
+  double spread = 0;                  // standard deviation of ln(diameter)
+  double roughness = 0;               // standard deviation of the facets' slope
+  double asymmetry = 0.85;            // HenyeyGreenstein
+  double wavelength_um = 0;           // 0: red, green and blue
+  bool analytic = false;              // the closed form
   std::span<const double> userAngle;  // rad, rising, 0 .. pi
   std::span<const double> userPhase;  // RGB at each
 };

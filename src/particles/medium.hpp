@@ -15,8 +15,8 @@ struct Medium {
 
   // Light that goes straight on is neither scattered nor lost: volumes take it off, as
   // P = f delta + (1 - f) P', extinction' = (1 - albedo f) extinction,
-  // albedo' = (1 - f) albedo / (1 - albedo f). Colours differ by less than 1e-2 in f: the extinction
-  // is that of their mean, the albedo makes up for it.
+  // albedo' = (1 - f) albedo / (1 - albedo f). Colours differ by less than 1e-2 in f: the
+  // extinction is that of their mean, the albedo makes up for it.
   double extinctionFactor() const;
   std::array<double, RGB> scaledAlbedo() const;
 };

@@ -23,7 +23,8 @@ Marks marksOf(Features features, double index) {
   if (features == Features::Bows) {
     return {0, 110 * DEGREE, bowAngle(index, 3), bowAngle(index, 2), 160 * DEGREE, PI};
   }
-  return {0, minimumDeviation(index, PI / 3), 34 * DEGREE, minimumDeviation(index, PI / 2),
+  return {0,           minimumDeviation(index, PI / 3),
+          34 * DEGREE, minimumDeviation(index, PI / 2),
           70 * DEGREE, PI};
 }
 

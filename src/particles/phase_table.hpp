@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shipped phase functions: ln P in 16 bits over scattering angle, an axis (ln of the diameter in um,
-// or roughness) and the three wavelengths. Made by table_builder.hpp, one table at most 16 KB.
+// Shipped phase functions: ln P in 16 bits over scattering angle, an axis (ln of the diameter in
+// um, or roughness) and the three wavelengths. Made by table_builder.hpp, one table at most 16 KB.
 #pragma once
 
 #include <array>
@@ -27,8 +27,8 @@ struct PhaseTable {
   float logMin;                    // ln P of code 0
   float logStep;                   // ln P of one code
   std::span<const uint16_t> code;  // [axis][channel][knot]
-  // [axis][channel]: mean cosine of P, to which a curve is calibrated; extinction cross-section over
-  // mean geometric cross-section; the part of the extinction that goes straight on, not in P.
+  // [axis][channel]: mean cosine of P, to which a curve is calibrated; extinction cross-section
+  // over mean geometric cross-section; the part of the extinction that goes straight on, not in P.
   std::span<const float> asymmetry;
   std::span<const float> efficiency;
   std::span<const float> delta;

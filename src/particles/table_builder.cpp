@@ -24,7 +24,8 @@ constexpr double STRAIGHT = 0.5 * DEGREE;
 std::vector<double> evenly(double first, double last, size_t count) {
   std::vector<double> values;
   for (size_t i = 0; i < count; ++i) {
-    values.push_back(std::lerp(first, last, static_cast<double>(i) / static_cast<double>(count - 1)));
+    values.push_back(
+        std::lerp(first, last, static_cast<double>(i) / static_cast<double>(count - 1)));
   }
   return values;
 }
@@ -135,9 +136,8 @@ void computeDroplets(TableKind kind, TableDraft& draft, size_t first, size_t end
     settings.nodesPerSpread = 128;
     settings.largestSizeParameter = 20000;
   }
-  const std::vector<MieAverage> means =
-      averageMie(sizes, waterSample(RGB_WAVELENGTH_UM[channel], WATER_TEMPERATURE_C), angles,
-                 settings);
+  const std::vector<MieAverage> means = averageMie(
+      sizes, waterSample(RGB_WAVELENGTH_UM[channel], WATER_TEMPERATURE_C), angles, settings);
   for (size_t i = 0; i < means.size(); ++i) {
     const size_t cell = (first + i) * kTableChannels + channel;
     const size_t knots = draft.knot.size();
@@ -149,8 +149,7 @@ void computeDroplets(TableKind kind, TableDraft& draft, size_t first, size_t end
     if (kind == TableKind::Rain) {
       draft.delta[cell] = removePeak(draft.knot, out, draft.features, index);
       // What goes straight on has a cosine of 1 to 4e-5.
-      draft.asymmetry[cell] =
-          (means[i].asymmetry - draft.delta[cell]) / (1 - draft.delta[cell]);
+      draft.asymmetry[cell] = (means[i].asymmetry - draft.delta[cell]) / (1 - draft.delta[cell]);
     }
   }
 }
@@ -263,7 +262,8 @@ PhaseTable StoredTable::view() const {
 }
 
 size_t StoredTable::bytes() const {
-  return (knot.size() + axis.size() + asymmetry.size() + efficiency.size() + delta.size()) * sizeof(float) +
+  return (knot.size() + axis.size() + asymmetry.size() + efficiency.size() + delta.size()) *
+             sizeof(float) +
          code.size() * sizeof(uint16_t) + 2 * sizeof(float);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes the shipped phase tables from Mie theory and from ray-traced ice. No Vulkan. Not part of the
-// library: the program welkin_tables writes src/particles/tables from it, and a test recomputes
+// Makes the shipped phase tables from Mie theory and from ray-traced ice. No Vulkan. Not part of
+// the library: the program welkin_tables writes src/particles/tables from it, and a test recomputes
 // some of it.
 #pragma once
 
@@ -15,19 +15,18 @@ namespace welkin {
 struct TableDraft {
   std::string name;
   Features features = Features::None;
-  std::vector<double> knot;        // rad
-  std::vector<double> axis;        // ln(diameter in um), or roughness
-  std::vector<double> logPhase;    // [axis][channel][knot]
-  std::vector<double> asymmetry;   // [axis][channel], as the next two
+  std::vector<double> knot;       // rad
+  std::vector<double> axis;       // ln(diameter in um), or roughness
+  std::vector<double> logPhase;   // [axis][channel][knot]
+  std::vector<double> asymmetry;  // [axis][channel], as the next two
   std::vector<double> efficiency;
   std::vector<double> delta;
 };
 
 // Name, features, knots and axis of each shipped table; nothing computed yet.
 enum class TableKind { Haze, Droplet, Rain, IceColumn, IcePlate, Snow };
-constexpr TableKind TABLE_KINDS[] = {TableKind::Haze,      TableKind::Droplet,
-                                     TableKind::Rain,      TableKind::IceColumn,
-                                     TableKind::IcePlate, TableKind::Snow};
+constexpr TableKind TABLE_KINDS[] = {TableKind::Haze,      TableKind::Droplet,  TableKind::Rain,
+                                     TableKind::IceColumn, TableKind::IcePlate, TableKind::Snow};
 TableDraft emptyDraft(TableKind kind);
 
 // Computes the channel of the columns [first, end) of the axis into the draft.

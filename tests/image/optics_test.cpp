@@ -76,6 +76,49 @@ class Sheet : public HeadlessScene {
   double tangent_;
 };
 
+// [R04] 4.2.4: the disk's radiance over its solid angle is the light's irradiance, and its edge
+// stands at half the angular diameter. Air that does not scatter, a picture 2 degrees wide.
+TEST(SunDisk, CarriesTheLightsIrradiance) {
+  SceneOptions options;
+  options.width = options.height = 256;
+  const HeadlessScene scene(options);
+  auto sky = welkin::make<WlkSky>();
+  std::fill(std::begin(sky.rayleighScattering), std::end(sky.rayleighScattering), 0.0f);
+  welkin::check(wlkSetSky(scene.context, &sky));
+  constexpr float IRRADIANCE[3] = {3, 2, 1};
+  for (const double diameter : {0.0093, 0.02}) {
+    auto light = welkin::make<WlkLight>();
+    light.direction[1] = 0;
+    light.direction[2] = -1;
+    light.angularDiameter = static_cast<float>(diameter);
+    std::copy(std::begin(IRRADIANCE), std::end(IRRADIANCE), std::begin(light.irradiance));
+    welkin::check(wlkSetLights(scene.context, 1, sizeof light, &light));
+    auto camera = welkin::make<WlkCamera>();
+    const double tangent = std::tan(1 * DEGREE);
+    camera.position[1] = 1000;  // the horizon lies below the picture's middle by 1 degree
+    camera.clipFromView[0] = static_cast<float>(1 / tangent);
+    camera.clipFromView[5] = static_cast<float>(-1 / tangent);
+    welkin::check(wlkSetCamera(scene.context, scene.view, &camera));
+    const Image image = scene.render();
+    const double pixel = std::pow(2 * tangent / options.width, 2);  // sr, to 2e-4
+    for (size_t c = 0; c < 3; ++c) {
+      double sum = 0;
+      double edge = 0;  // radius of a disk of the same area as the pixels over half the maximum
+      for (uint32_t y = 0; y < options.height / 2 + 90; ++y) {
+        for (uint32_t x = 0; x < options.width; ++x) {
+          const double value = static_cast<double>(image.at(x, y)[c]);
+          sum += value * pixel;
+          edge += value > 0.5 * static_cast<double>(image.at(128, 128)[c]) ? pixel : 0;
+        }
+      }
+      // The rim's pixels: 1 of 68 in radius at most, alternating in sign around the circle.
+      EXPECT_NEAR(sum / static_cast<double>(IRRADIANCE[c]), 1, 0.01) << diameter;
+      // The rim is soft over the last 4 % of the radius.
+      EXPECT_NEAR(std::sqrt(edge / std::numbers::pi) / (diameter / 2), 0.98, 0.01) << diameter;
+    }
+  }
+}
+
 WlkMediumInfo mediumOf(uint32_t particle, float diameter_um = 0, float spread = 0) {
   auto info = welkin::make<WlkMediumInfo>();
   info.particle = particle;

@@ -228,7 +228,8 @@ TEST(Multiscatter, FirstRowIsSingleScattering) {
   for (const Case& c : media()) {
     const Rows t = build(c.phase);
     for (size_t i = 0; i < ANGLES; ++i) {
-      const double truth = std::log(evalPhase(c.phase, phaseNode(static_cast<double>(i) / (ANGLES - 1.0))));
+      const double truth =
+          std::log(evalPhase(c.phase, phaseNode(static_cast<double>(i) / (ANGLES - 1.0))));
       // One rounding to float.
       EXPECT_NEAR(t.log(0, i), truth, EPS_FLOAT * std::max(std::abs(truth), 1.0)) << c.name << i;
     }
@@ -312,8 +313,8 @@ double marchedLight(const Rows& t, double albedo, double depth, int slabs) {
     const double n = albedo * (k + 0.5) * step;
     const double x = f64::depthCoordinate(n) * (kPhaseDepths - 1);
     const size_t i = static_cast<size_t>(std::min(x, kPhaseDepths - 2.0));
-    const double f = t.forward(i) + (t.forward(i + 1) - t.forward(i)) *
-                                                (x - static_cast<double>(i));
+    const double f =
+        t.forward(i) + (t.forward(i + 1) - t.forward(i)) * (x - static_cast<double>(i));
     logLight -= f64::forwardLoss(albedo, f) * step;
   }
   return std::exp(logLight);

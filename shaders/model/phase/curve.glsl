@@ -50,6 +50,6 @@ real curveCellValue(real y0, real y1, real p0, real p1, real y) {
 // the discriminant (1 - q) p0^2 + q p1^2.
 real curveCellInvert(real y0, real y1, real p0, real p1, real q) {
   real root = sqrt((real(1.0f) - q) * p0 * p0 + q * p1 * p1);
-  real t = q * (p0 + p1) / max(p0 + root, real(1e-30f));
+  real t = q * (p0 + p1) / max(p0 + root, real(1e-30));
   return y0 + (y1 - y0) * min(t, real(1.0f));
 }

@@ -17,9 +17,9 @@ const real PHASE_INV_4PI = real(0.0795774715459476679);
 // of both fits, and as close to Mie theory as they are (SmallDroplets.*).
 const real FOG_DIAMETER_MIN = real(0.0f);   // um; Rayleigh within 2e-4
 const real FOG_DIAMETER_MAX = real(50.0f);  // um
-const real FOG_TINY_END = real(0.1f);       // um; bands: 0.1..0.13, 1.2..1.5, 4..5
-const real FOG_SMALL_BEGIN = real(0.13f);
-const real FOG_SMALL_END = real(1.2f);
+const real FOG_TINY_END = real(0.1);       // um; bands: 0.1..0.13, 1.2..1.5, 4..5
+const real FOG_SMALL_BEGIN = real(0.13);
+const real FOG_SMALL_END = real(1.2);
 const real FOG_MIDDLE_BEGIN = real(1.5f);
 const real FOG_MIDDLE_END = real(4.0f);
 const real FOG_LARGE_BEGIN = real(5.0f);  // below, Eq. 4 is not a fit of anything
@@ -61,7 +61,7 @@ FogPhase fogPhaseOf(real gHg, real gD, real alpha, real weightD) {
 // The fits, d in um and l = ln d; below 5 um those of [J23], supplemental, Eq. 7-22.
 FogPhase fogFitTiny(real d) {
   // d^4.3, which is 1e-13 at the guard against ln 0.
-  real power = exp(real(4.3) * log(max(d, real(0.001f))));
+  real power = exp(real(4.3) * log(max(d, real(0.001))));
   real gD = real(1.1456) * d * sin(real(9.29044) * d);
   return fogPhaseOf(real(13.8) * d * d, gD, real(250.0f), real(0.252977) - real(312.983) * power);
 }

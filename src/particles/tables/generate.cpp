@@ -15,8 +15,8 @@ namespace {
 using namespace welkin;
 
 template <typename T>
-void writeArray(std::ofstream& out, const char* type, const char* name, const std::vector<T>& values,
-                const char* format) {
+void writeArray(std::ofstream& out, const char* type, const char* name,
+                const std::vector<T>& values, const char* format) {
   out << "constexpr " << type << " " << name << "[] = {";
   for (size_t i = 0; i < values.size(); ++i) {
     char text[32];

@@ -26,9 +26,11 @@ namespace snow {
 
 }  // namespace
 
-#define WELKIN_TABLE(name, features)                                                      \
-  {#name,      features,        name::KNOT,       name::AXIS, name::RANGE[0], name::RANGE[1], \
-   name::CODE, name::ASYMMETRY, name::EFFICIENCY, name::DELTA}
+#define WELKIN_TABLE(name, features)                                                               \
+  {                                                                                                \
+#name, features, name::KNOT, name::AXIS,                                                       \
+        name::RANGE[0], name::RANGE[1], name::CODE, name::ASYMMETRY, name::EFFICIENCY, name::DELTA \
+  }
 
 const PhaseTable HAZE_TABLE = WELKIN_TABLE(haze, Features::None);
 const PhaseTable DROPLET_TABLE = WELKIN_TABLE(droplet, Features::Bows);

@@ -4,7 +4,7 @@
 
 namespace welkin {
 
-const ParticleKind CLOUD = {"cloud", {5, 50, 20}, {0.05, 0.5, DROPLET_SPREAD}, {}, true, true,
-                            makeDroplets};
+const ParticleKind CLOUD = {"cloud", {5, 50, 20}, {0.05, 0.5, DROPLET_SPREAD}, {}, true,
+                            true,    makeDroplets};
 
 }  // namespace welkin

@@ -42,14 +42,13 @@ Particle blended(const Particle& a, const Particle& b, double t) {
 }
 
 Particle fromTables(const ParticleParams& params) {
-  const double t = std::log(params.diameter_um / BLEND_BEGIN_um) /
-                   std::log(BLEND_END_um / BLEND_BEGIN_um);
+  const double t =
+      std::log(params.diameter_um / BLEND_BEGIN_um) / std::log(BLEND_END_um / BLEND_BEGIN_um);
   if (t <= 0) {
     return fromTable(HAZE_TABLE, params);
   }
   const Particle large = fromTable(DROPLET_TABLE, params);
-  return t >= 1 ? large
-                : blended(fromTable(HAZE_TABLE, params), large, t * t * (3 - 2 * t));
+  return t >= 1 ? large : blended(fromTable(HAZE_TABLE, params), large, t * t * (3 - 2 * t));
 }
 
 // Angles at even steps of the coordinate s, dense enough for the rings of a narrow spread.
@@ -111,8 +110,7 @@ Particle makeDroplets(const ParticleParams& params) {
   if (params.analytic) {
     particle.analytic = true;
     particle.phase = phaseParameters(PhaseKind::HgDraine, params.diameter_um, 0);
-    particle.curve =
-        makePhaseCurve([&](size_t, double y) { return evalPhase(particle.phase, y); });
+    particle.curve = makePhaseCurve([&](size_t, double y) { return evalPhase(particle.phase, y); });
   }
   const SizeDistribution sizes = sizesOf(params);
   particle.optics.area_um2 = PI * meanPower(sizes, 2);

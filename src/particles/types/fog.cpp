@@ -4,7 +4,7 @@
 
 namespace welkin {
 
-const ParticleKind FOG = {"fog", {0.1, 50, 10}, {0.05, 0.5, DROPLET_SPREAD}, {}, true, true,
-                          makeDroplets};
+const ParticleKind FOG = {"fog", {0.1, 50, 10}, {0.05, 0.5, DROPLET_SPREAD}, {}, true,
+                          true,  makeDroplets};
 
 }  // namespace welkin

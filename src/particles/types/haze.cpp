@@ -4,7 +4,7 @@
 
 namespace welkin {
 
-const ParticleKind HAZE = {"haze", {0.1, 5, 0.6}, {0.05, 0.5, DROPLET_SPREAD}, {}, true, true,
-                           makeDroplets};
+const ParticleKind HAZE = {"haze", {0.1, 5, 0.6}, {0.05, 0.5, DROPLET_SPREAD}, {}, true,
+                           true,   makeDroplets};
 
 }  // namespace welkin

@@ -15,7 +15,7 @@ Particle makeHenyeyGreenstein(const ParticleParams& params) {
 
 }  // namespace
 
-const ParticleKind HENYEY_GREENSTEIN = {"henyey-greenstein",  {},   {}, {}, false, true,
+const ParticleKind HENYEY_GREENSTEIN = {"henyey-greenstein", {}, {}, {}, false, true,
                                         makeHenyeyGreenstein};
 
 }  // namespace welkin

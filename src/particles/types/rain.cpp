@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rain drops as spheres, seen in the light of the sun's disk; radius 1 mm by default ([R04] Table 2:
-// 2 pi r^2 = 6.28e-6 m^2). Real drops above 1 mm are flatter: their bows are wider apart.
+// Rain drops as spheres, seen in the light of the sun's disk; radius 1 mm by default ([R04] Table
+// 2: 2 pi r^2 = 6.28e-6 m^2). Real drops above 1 mm are flatter: their bows are wider apart.
 #include <cmath>
 #include <numbers>
 
@@ -26,7 +26,7 @@ Particle makeRain(const ParticleParams& params) {
 
 }  // namespace
 
-const ParticleKind RAIN = {"rain", {100, 2000, 2000}, {SPREAD, SPREAD, SPREAD}, {}, true, false,
-                           makeRain};
+const ParticleKind RAIN = {"rain", {100, 2000, 2000}, {SPREAD, SPREAD, SPREAD}, {}, true,
+                           false,  makeRain};
 
 }  // namespace welkin

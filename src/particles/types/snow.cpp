@@ -7,8 +7,7 @@ namespace welkin {
 namespace {
 
 Particle makeSnow(const ParticleParams& params) {
-  return tableParticle(SNOW_TABLE, true, params,
-                       [&](double, double) { return params.roughness; });
+  return tableParticle(SNOW_TABLE, true, params, [&](double, double) { return params.roughness; });
 }
 
 }  // namespace

@@ -39,8 +39,8 @@ double angleOf(double y);  // rad, of 1 - cos
 
 // Everything a table holds, at a medium's wavelengths. `axisValue` of a table channel and a
 // wavelength.
-Particle tableParticle(const PhaseTable& table, bool ice, const ParticleParams& params,
-                       const std::function<double(double tableWavelength_um,
-                                                  double wavelength_um)>& axisValue);
+Particle tableParticle(
+    const PhaseTable& table, bool ice, const ParticleParams& params,
+    const std::function<double(double tableWavelength_um, double wavelength_um)>& axisValue);
 
 }  // namespace welkin
