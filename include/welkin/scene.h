@@ -125,7 +125,7 @@ enum {
   WLK_PARTICLE_USER = 9
 };
 
-/** Zero in a number means the type's default. */
+/** Zero in diameter_um, spread and roughness means the type's default. */
 typedef struct WlkMediumInfo {
   uint32_t sType;
   uint32_t structSize;
@@ -151,9 +151,9 @@ typedef struct WlkMediumInfo {
   /** One wavelength for all three channels; 0 means red 0.68, green 0.55 and blue 0.44. um, 0 or
    *  [0.4, 0.7]; other than 0 not for USER. Default 0. */
   float wavelength_um;
-  /** For USER: scattering angles in rad, rising from 0 to pi, and 3 values (RGB) for each, any
-   * unit,
-   *  >= 0. Between them ln P is interpolated. Read during the call only. Default null. */
+  /** For USER: scattering angles in rad, rising from 0 to pi, and 3 values (RGB) for each in any
+   *  unit, [0, 1e30]. Between them ln P is interpolated. Read during the call only. Default null.
+   */
   const double* userAngle;
   const double* userPhase;
   /** [2, 65536] for USER, else 0. Default 0. */

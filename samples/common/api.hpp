@@ -37,6 +37,9 @@ inline constexpr WlkStructType structType(const WlkFog&) {
 inline constexpr WlkStructType structType(const WlkMediumInfo&) {
   return WLK_STRUCT_MEDIUM_INFO;
 }
+inline constexpr WlkStructType structType(const WlkMediumOptics&) {
+  return WLK_STRUCT_MEDIUM_OPTICS;
+}
 inline constexpr WlkStructType structType(const WlkVolumeInfo&) {
   return WLK_STRUCT_VOLUME_INFO;
 }
@@ -63,6 +66,9 @@ inline constexpr WlkStructType structType(const WlkFrameStats&) {
 }
 inline constexpr WlkStructType structType(const WlkRayBatch&) {
   return WLK_STRUCT_RAY_BATCH;
+}
+inline constexpr WlkStructType structType(const WlkPhaseQuery&) {
+  return WLK_STRUCT_PHASE_QUERY;
 }
 
 /// Throws unless `result` is a success. A value that the library rejects is the input's fault

@@ -97,8 +97,8 @@ void applyWorld(WlkContext context, const Scene& scene) {
 void applyVolumes(WlkContext context, const Scene& scene, const Progress& progress) {
   std::vector<WlkMedium> media(scene.media.size());
   for (size_t i = 0; i < media.size(); ++i) {
-    check(wlkCreateMedium(context, &scene.media[i].info, &media[i]), scene.file,
-          "media." + scene.media[i].name);
+    const WlkMediumInfo info = mediumInfo(scene.media[i]);
+    check(wlkCreateMedium(context, &info, &media[i]), scene.file, "media." + scene.media[i].name);
   }
   for (size_t i = 0; i < scene.volumes.size(); ++i) {
     progress("volume " + std::to_string(i + 1) + " of " + std::to_string(scene.volumes.size()));

@@ -20,14 +20,21 @@ namespace host {
 
 struct MediumDesc {
   std::string name;
+  /// Without the pointers to the table, which move with this structure.
   WlkMediumInfo info;
+  /// For WLK_PARTICLE_USER: rad, and 3 values for each.
+  std::vector<double> userAngle;
+  std::vector<double> userPhase;
 };
+
+/// `info` with its pointers; valid as long as `medium` is neither changed nor moved.
+WlkMediumInfo mediumInfo(const MediumDesc& medium);
 
 /// Where a grid comes from.
 struct SourceDesc {
   /// Empty for generated data.
   std::filesystem::path file;
-  std::variant<RawInfo, LesInfo, VdbInfo, CumulusInfo> info;
+  std::variant<RawInfo, LesInfo, VdbInfo, CumulusInfo, SlabInfo> info;
 };
 
 /// Loads or makes the grid. Throws InputError.
@@ -98,8 +105,13 @@ Json readSceneJson(const std::string& file, const std::vector<std::string>& assi
 /// runs. Ranges of the library's own values are left to the library. Throws InputError.
 Scene parseScene(const Json& root, const std::string& file);
 
-/// A medium as in `media`; for the phase command. `key` is its path for messages.
-WlkMediumInfo parseMedium(const JsonNode& node);
+/// A medium as in `media`, and its words on their own; for the phase command too.
+MediumDesc parseMedium(const JsonNode& node);
+uint32_t parseParticle(const JsonNode& node);
+uint32_t parsePhaseModel(const JsonNode& node);
+
+/// Reads a table of angle_deg, red, green, blue: rows rising from 0 to 180 degrees, any unit >= 0.
+void readUserPhase(const std::string& file, MediumDesc& medium);
 
 /// Parts of parseScene, one file each.
 void parseWorld(const JsonNode& root, Scene& scene);

@@ -21,7 +21,8 @@ WlkQuality parseQuality(const JsonNode& node) {
     quality.slicing = node.at("slicing").word({"default", "half-angle", "light-aligned"});
   }
   if (node.has("scattering")) {
-    quality.scattering = node.at("scattering").word({"default", "single", "forward"});
+    quality.scattering =
+        node.at("scattering").word({"default", "single", "forward", "forward-integer"});
   }
   if (node.has("noSkip") && node.at("noSkip").boolean()) {
     quality.flags |= WLK_QUALITY_NO_SKIP;

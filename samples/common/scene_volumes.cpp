@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The sections media and volumes, and where a volume ends up in the world.
+// The sections media and volumes.
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "common/api.hpp"
+#include "common/csv.hpp"
+#include "common/error.hpp"
 #include "common/scene.hpp"
+#include "common/slab.hpp"
 
 namespace host {
 namespace {
@@ -82,18 +85,44 @@ CumulusInfo parseCumulus(const JsonNode& node) {
   return info;
 }
 
+SlabInfo parseSlab(const JsonNode& node) {
+  node.onlyKeys({"type", "size", "extent", "edge", "noise", "noiseSize", "seed"});
+  SlabInfo info;
+  if (node.has("size")) {
+    info.size = parseSize(node.at("size"));
+  }
+  if (node.has("extent")) {
+    info.extent = positiveVec3(node.at("extent"));
+  }
+  if (node.has("edge")) {
+    info.edge = node.at("edge").vec3();
+    if (!(std::min({info.edge.x, info.edge.y, info.edge.z}) >= 0.0)) {
+      node.at("edge").fail("expected three lengths >= 0 in m");
+    }
+  }
+  node.optional("noise", info.noise, 0.0, 1.0);
+  node.optional("noiseSize", info.noiseSize, 1e-3, 1e9);
+  node.optional("seed", info.seed);
+  return info;
+}
+
 SourceDesc parseSource(const JsonNode& node) {
   SourceDesc source;
-  const uint32_t type = node.at("type").word({"raw", "les", "vdb", "cumulus"});
+  const uint32_t type = node.at("type").word({"raw", "les", "vdb", "cumulus", "slab"});
+  if (type >= 3) {
+    if (type == 3) {
+      source.info = parseCumulus(node);
+    } else {
+      source.info = parseSlab(node);
+    }
+    return source;
+  }
   if (type == 0) {
     source.info = parseRaw(node);
   } else if (type == 1) {
     source.info = parseLes(node);
-  } else if (type == 2) {
-    source.info = parseVdb(node);
   } else {
-    source.info = parseCumulus(node);
-    return source;
+    source.info = parseVdb(node);
   }
   source.file = resolvePath(node.at("file"));
   return source;
@@ -160,24 +189,95 @@ VolumeDesc parseVolume(const JsonNode& node, const Scene& scene) {
 
 }  // namespace
 
-WlkMediumInfo parseMedium(const JsonNode& node) {
-  node.onlyKeys({"phase", "dropletDiameter_um", "asymmetry", "singleScatteringAlbedo"});
-  auto info = make<WlkMediumInfo>();
-  if (node.has("phase")) {
-    constexpr std::array<uint32_t, 3> PHASES = {WLK_PHASE_HG_DRAINE, WLK_PHASE_HENYEY_GREENSTEIN,
-                                                WLK_PHASE_RAYLEIGH};
-    info.phase = PHASES[node.at("phase").word({"hg-draine", "hg", "rayleigh"})];
+WlkMediumInfo mediumInfo(const MediumDesc& medium) {
+  WlkMediumInfo info = medium.info;
+  if (!medium.userAngle.empty()) {
+    info.userAngle = medium.userAngle.data();
+    info.userPhase = medium.userPhase.data();
+    info.userCount = static_cast<uint32_t>(medium.userAngle.size());
   }
-  node.optional("dropletDiameter_um", info.dropletDiameter_um);
+  return info;
+}
+
+// The words stand in the order of the API's values.
+uint32_t parseParticle(const JsonNode& node) {
+  return node.word({"cloud", "fog", "haze", "rain", "ice-column", "ice-plate", "snow", "air",
+                    "henyey-greenstein", "user"});
+}
+
+uint32_t parsePhaseModel(const JsonNode& node) {
+  return node.word({"default", "analytic", "table"});
+}
+
+void readUserPhase(const std::string& file, MediumDesc& medium) {
+  constexpr size_t MAX_ROWS = 65536;  // the API's bound
+  const std::vector<std::string> columns = {"angle_deg", "red", "green", "blue"};
+  const CsvTable table = readCsv(file, {columns});
+  if (table.columns != columns) {
+    throw InputError(file, "line 1", "expected the columns angle_deg,red,green,blue");
+  }
+  const size_t rows = table.rowCount();
+  if (rows < 2 || rows > MAX_ROWS) {
+    throw InputError(file, "", "expected 2 to 65536 rows, got " + std::to_string(rows));
+  }
+  if (table.at(0, 0) != 0.0) {
+    table.fail(0, columns[0], "expected 0 degrees in the first row");
+  }
+  if (table.at(rows - 1, 0) != 180.0) {
+    table.fail(rows - 1, columns[0], "expected 180 degrees in the last row");
+  }
+  for (size_t row = 0; row < rows; ++row) {
+    if (row > 0 && !(table.at(row, 0) > table.at(row - 1, 0))) {
+      table.fail(row, columns[0], "expected more degrees than in the row before");
+    }
+    // 180 degrees must give pi itself, not its neighbour: divide first.
+    medium.userAngle.push_back(table.at(row, 0) / 180.0 * PI);
+    for (int i = 1; i < 4; ++i) {
+      const double value = table.at(row, i);
+      if (!(value >= 0.0 && std::isfinite(value))) {
+        table.fail(row, columns[static_cast<size_t>(i)], "expected a finite number >= 0");
+      }
+      medium.userPhase.push_back(value);
+    }
+  }
+}
+
+MediumDesc parseMedium(const JsonNode& node) {
+  node.onlyKeys({"particle", "model", "diameter_um", "spread", "roughness", "asymmetry",
+                 "singleScatteringAlbedo", "wavelength_um", "file"});
+  MediumDesc medium{"", make<WlkMediumInfo>(), {}, {}};
+  WlkMediumInfo& info = medium.info;
+  if (node.has("particle")) {
+    info.particle = parseParticle(node.at("particle"));
+  }
+  if (node.has("model")) {
+    info.phaseModel = parsePhaseModel(node.at("model"));
+  }
+  node.optional("diameter_um", info.diameter_um);
+  node.optional("spread", info.spread);
+  node.optional("roughness", info.roughness);
   node.optional("asymmetry", info.asymmetry);
   node.optional("singleScatteringAlbedo", info.singleScatteringAlbedo);
-  return info;
+  node.optional("wavelength_um", info.wavelength_um);
+  if (node.has("file")) {
+    readUserPhase(resolvePath(node.at("file")).string(), medium);
+  }
+  return medium;
 }
 
 void parseVolumes(const JsonNode& root, Scene& scene) {
   if (root.has("media")) {
     for (const auto& [name, node] : root.at("media").members()) {
-      scene.media.push_back({name, parseMedium(node)});
+      MediumDesc medium = parseMedium(node);
+      const bool user = medium.info.particle == WLK_PARTICLE_USER;
+      if (user && !node.has("file")) {
+        node.fail("expected file, the table of particle user");
+      }
+      if (!user && node.has("file")) {
+        node.at("file").fail("expected only with particle user");
+      }
+      medium.name = name;
+      scene.media.push_back(std::move(medium));
     }
   }
   if (root.has("volumes")) {
@@ -194,6 +294,7 @@ Grid loadSource(const SourceDesc& source) {
     Grid operator()(const LesInfo& info) const { return loadLes(file, info); }
     Grid operator()(const VdbInfo& info) const { return loadVdb(file, info); }
     Grid operator()(const CumulusInfo& info) const { return makeCumulus(info); }
+    Grid operator()(const SlabInfo& info) const { return makeSlab(info); }
   };
   return std::visit(Loader{source.file}, source.info);
 }

@@ -66,9 +66,12 @@ WlkLight parseLight(const JsonNode& node) {
 }
 
 WlkFog parseFog(const JsonNode& node) {
-  node.onlyKeys({"dropletDiameter_um", "extinction", "baseAltitude", "scaleHeight",
+  node.onlyKeys({"model", "dropletDiameter_um", "extinction", "baseAltitude", "scaleHeight",
                  "singleScatteringAlbedo"});
   auto fog = make<WlkFog>();
+  if (node.has("model")) {
+    fog.phaseModel = parsePhaseModel(node.at("model"));
+  }
   node.optional("dropletDiameter_um", fog.dropletDiameter_um);
   node.optional("extinction", fog.extinction);
   node.optional("baseAltitude", fog.baseAltitude);

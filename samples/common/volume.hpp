@@ -80,4 +80,17 @@ struct CumulusInfo {
 /// box's faces. The same input gives the same cloud on every machine, up to rounding in libm.
 Grid makeCumulus(const CumulusInfo& info);
 
+struct SlabInfo {
+  std::array<uint32_t, 3> size{32, 32, 32};
+  /// Edges of the box in metres.
+  Vec3 extent{1000.0, 1000.0, 1000.0};
+  /// Distance from the faces across x, y and z over which the density rises to 1; 0: at once. m.
+  Vec3 edge;
+  /// Part of the density that noise may take away. [0, 1].
+  double noise = 0.0;
+  /// Size of the largest wisps, m.
+  double noiseSize = 500.0;
+  uint32_t seed = 1;
+};
+
 }  // namespace host

@@ -63,7 +63,7 @@ static void addCloud(WlkContext context) {
   WlkMediumInfo mediumInfo;
   WlkMedium medium;
   INIT(WLK_STRUCT_MEDIUM_INFO, mediumInfo);
-  mediumInfo.dropletDiameter_um = 20.0f;
+  mediumInfo.diameter_um = 20.0f;
   check(wlkCreateMedium(context, &mediumInfo, &medium));
 
   WlkVolumeField field = {medium, 0.01f, 0};

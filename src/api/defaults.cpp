@@ -130,6 +130,13 @@ WlkRayBatch rays() {
   return r;
 }
 
+WlkPhaseQuery phaseQuery() {
+  auto q = blank<WlkPhaseQuery>(WLK_STRUCT_PHASE_QUERY);
+  q.order = 1;
+  q.opticalDepth = 1;
+  return q;
+}
+
 void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
   switch (sType) {
     case WLK_STRUCT_ERROR_INFO:
@@ -150,6 +157,8 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
       return write(fog(), structSize, structure);
     case WLK_STRUCT_MEDIUM_INFO:
       return write(medium(), structSize, structure);
+    case WLK_STRUCT_MEDIUM_OPTICS:
+      return write(blank<WlkMediumOptics>(sType), structSize, structure);
     case WLK_STRUCT_VOLUME_INFO:
       return write(volume(), structSize, structure);
     case WLK_STRUCT_VOLUME_UPLOAD:
@@ -170,6 +179,8 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
       return write(blank<WlkFrameStats>(sType), structSize, structure);
     case WLK_STRUCT_RAY_BATCH:
       return write(rays(), structSize, structure);
+    case WLK_STRUCT_PHASE_QUERY:
+      return write(phaseQuery(), structSize, structure);
     case WLK_STRUCT_VULKAN_DEVICE_INFO:
       return write(blank<WlkVulkanDeviceInfo>(sType), structSize, structure);
     case WLK_STRUCT_VULKAN_REQUIREMENTS:

@@ -111,11 +111,10 @@ static void scene(WlkContext context) {
 
 static void queries(WlkContext context) {
   WlkCapabilities capabilities;
-  WlkMediumInfo medium;
   WlkRayBatch batch;
   WlkRay ray = {{0.0, 2.0, 0.0}, {0.6, 0.8, 0.0}, INFINITY};
-  double radiance[3], transmittance[3], irradiance[3], phase[2];
-  const double angle[2] = {0.0, 1.0}, position[3] = {0.0, 2.0, 0.0};
+  double radiance[3], transmittance[3], irradiance[3];
+  const double position[3] = {0.0, 2.0, 0.0};
 
   INIT(WLK_STRUCT_CAPABILITIES, capabilities);
   EXPECT(WLK_SUCCESS, wlkGetCapabilities(context, &capabilities));
@@ -131,10 +130,25 @@ static void queries(WlkContext context) {
   REQUIRE(radiance[2] > radiance[0]); /* a clear sky is blue */
   EXPECT(WLK_SUCCESS, wlkEvalLight(context, 0, position, irradiance));
   REQUIRE(countBad(irradiance, 3) == 0 && irradiance[0] > irradiance[2]);
+}
 
-  INIT(WLK_STRUCT_MEDIUM_INFO, medium);
-  EXPECT(WLK_SUCCESS, wlkEvalPhase(&medium, 2, angle, phase));
-  REQUIRE(phase[0] > phase[1] && phase[1] > 0.0);
+static void phaseQueries(WlkContext context, WlkMedium medium) {
+  WlkPhaseQuery query;
+  WlkMediumOptics optics;
+  double phase[6], sampled[2], density[2];
+  const double angle[2] = {0.0, 1.0}, random[2] = {0.25, 0.75};
+
+  INIT(WLK_STRUCT_PHASE_QUERY, query);
+  query.medium = medium;
+  query.count = 2;
+  query.scatteringAngle = angle;
+  EXPECT(WLK_SUCCESS, wlkEvalPhase(context, &query, phase));
+  REQUIRE(phase[0] > phase[3] && phase[2] > phase[5] && countBad(phase, 6) == 0);
+  EXPECT(WLK_SUCCESS, wlkSamplePhase(context, medium, 1, 2, random, sampled, density));
+  REQUIRE(sampled[0] != sampled[1] && countBad(sampled, 2) == 0 && countBad(density, 2) == 0);
+  INIT(WLK_STRUCT_MEDIUM_OPTICS, optics);
+  EXPECT(WLK_SUCCESS, wlkGetMediumOptics(context, medium, &optics));
+  REQUIRE(optics.asymmetry[0] > 0.8f && optics.effectiveRadius_um > 0.0f);
 }
 
 /* Media serve the phase queries of a host; volumes are for rendering only and need a device. */
@@ -149,6 +163,7 @@ static void objects(WlkContext context) {
 
   INIT(WLK_STRUCT_MEDIUM_INFO, mediumInfo);
   EXPECT(WLK_SUCCESS, wlkCreateMedium(context, &mediumInfo, &medium));
+  phaseQueries(context, medium);
   INIT(WLK_STRUCT_VOLUME_INFO, volumeInfo);
   REQUIRE(volumeInfo.fieldStride == sizeof field);
   memset(&field, 0, sizeof field);

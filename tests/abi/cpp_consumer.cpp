@@ -58,7 +58,7 @@ static void ownersDestroyOnce() {
   REQUIRE(moved.create(context, welkin::make<WlkMediumInfo>()) == WLK_SUCCESS);
   const WlkMedium kept = moved;
   WlkMediumInfo wrong = welkin::make<WlkMediumInfo>();
-  wrong.dropletDiameter_um = -1.0f;
+  wrong.diameter_um = -1.0f;
   REQUIRE(moved.create(context, wrong) == WLK_ERROR_INVALID_ARGUMENT);
   REQUIRE(moved.get().id == kept.id);
 
@@ -74,14 +74,14 @@ static void ownersDestroyOnce() {
 static void errorsNameTheField() {
   welkin::Context context(welkin::make<WlkContextInfo>());
   WlkMediumInfo info = welkin::make<WlkMediumInfo>();
-  info.dropletDiameter_um = -1.0f;
+  info.diameter_um = -1.0f;
   bool thrown = false;
   try {
     const welkin::Medium medium(context, info);
   } catch (const welkin::Error& error) {
     thrown = true;
     REQUIRE(error.result() == WLK_ERROR_INVALID_ARGUMENT);
-    REQUIRE(std::string(error.info().field).find("dropletDiameter_um") != std::string::npos);
+    REQUIRE(std::string(error.info().field).find("diameter_um") != std::string::npos);
     REQUIRE(std::string(error.what()).find("WLK_ERROR_INVALID_ARGUMENT") == 0);
   }
   REQUIRE(thrown);
@@ -91,10 +91,10 @@ static void errorsNameTheField() {
 
 int main() {
   makeSetsTheHead<WlkErrorInfo, WlkContextInfo, WlkHeadlessInfo, WlkCapabilities, WlkPlanet, WlkSky,
-                  WlkLight, WlkFog, WlkMediumInfo, WlkVolumeInfo, WlkVolumeUpload, WlkViewInfo,
-                  WlkCamera, WlkQuality, WlkFrameInfo, WlkHeadlessTargets, WlkImageData,
-                  WlkFrameStats, WlkRayBatch, WlkVulkanDeviceInfo, WlkVulkanRequirements,
-                  WlkVulkanImage, WlkVulkanViewTargets>();
+                  WlkLight, WlkFog, WlkMediumInfo, WlkMediumOptics, WlkVolumeInfo, WlkVolumeUpload,
+                  WlkViewInfo, WlkCamera, WlkQuality, WlkFrameInfo, WlkHeadlessTargets,
+                  WlkImageData, WlkFrameStats, WlkRayBatch, WlkPhaseQuery, WlkVulkanDeviceInfo,
+                  WlkVulkanRequirements, WlkVulkanImage, WlkVulkanViewTargets>();
   movesOnly<welkin::Context>();
   movesOnly<welkin::Medium>();
   movesOnly<welkin::Volume>();

@@ -42,9 +42,10 @@ TEST(HostScene, ReadsEverySection) {
   const host::Scene scene = parse(R"({
     // comments are allowed
     "planet": {"radius": 1e6, "groundAlbedo": 0.3},
-    "sky": {}, "fog": {"dropletDiameter_um": 5, "extinction": 0.01, "scaleHeight": 50},
+    "sky": {}, "fog": {"model": "analytic", "dropletDiameter_um": 5, "extinction": 0.01,
+            "scaleHeight": 50},
     "lights": [{"elevation_deg": 30, "azimuth_deg": 90, "irradiance": [1, 2, 3]}],
-    "media": {"drop": {"phase": "hg", "asymmetry": 0.5}},
+    "media": {"drop": {"particle": "henyey-greenstein", "asymmetry": 0.5}},
     "volumes": [{"source": {"type": "cumulus", "size": [8, 8, 8]},
                  "fields": [{"medium": "drop", "extinctionScale": 0.05}],
                  "transform": {"min": [0, 1, 2], "size": [3, 4, 5]}}],
@@ -63,7 +64,9 @@ TEST(HostScene, ReadsEverySection) {
   EXPECT_NEAR(scene.lights[0].direction[2], 0.0, FLOAT_UNIT);
   EXPECT_EQ(scene.lights[0].irradiance[2], 3.0f);
   EXPECT_EQ(scene.fog->dropletDiameter_um, 5.0f);
-  EXPECT_EQ(scene.media[0].info.phase, uint32_t{WLK_PHASE_HENYEY_GREENSTEIN});
+  EXPECT_EQ(scene.fog->phaseModel, uint32_t{WLK_PHASE_ANALYTIC});
+  EXPECT_EQ(scene.media[0].info.particle, uint32_t{WLK_PARTICLE_HENYEY_GREENSTEIN});
+  EXPECT_EQ(scene.media[0].info.asymmetry, 0.5f);
   EXPECT_EQ(scene.volumes[0].fields[0].extinctionScale, 0.05);
   EXPECT_TRUE(scene.volumes[0].placement.box);
   EXPECT_EQ(scene.quality.slicing, uint32_t{WLK_SLICING_LIGHT_ALIGNED});
@@ -101,6 +104,90 @@ TEST(HostScene, NamesTheKeyAndTheExpectedValue) {
                    R"({"camera": {"verticalFov_deg": 180}})");
 }
 
+TEST(HostScene, ReadsEveryKeyOfMediaInTheOrderOfTheApi) {
+  const host::Scene scene = parse(R"({"media": {
+    "a": {}, "b": {"particle": "cloud", "model": "table", "diameter_um": 7, "spread": 0.1,
+                   "wavelength_um": 0.5, "singleScatteringAlbedo": [0.1, 0.2, 0.3]},
+    "c": {"particle": "snow", "roughness": 0.4}}})");
+  ASSERT_EQ(scene.media.size(), 3u);
+  EXPECT_EQ(scene.media[0].info.particle, uint32_t{WLK_PARTICLE_CLOUD});
+  EXPECT_EQ(scene.media[0].info.phaseModel, uint32_t{WLK_PHASE_DEFAULT});
+  EXPECT_EQ(scene.media[0].info.diameter_um, 0.0f);
+  const WlkMediumInfo& b = scene.media[1].info;
+  EXPECT_EQ(b.phaseModel, uint32_t{WLK_PHASE_TABLE});
+  EXPECT_EQ(b.diameter_um, 7.0f);
+  EXPECT_EQ(b.spread, 0.1f);
+  EXPECT_EQ(b.wavelength_um, 0.5f);
+  EXPECT_EQ(b.singleScatteringAlbedo[1], 0.2f);
+  EXPECT_EQ(scene.media[2].info.roughness, 0.4f);
+  const std::vector<std::pair<std::string, uint32_t>> words = {
+      {"cloud", WLK_PARTICLE_CLOUD},
+      {"fog", WLK_PARTICLE_FOG},
+      {"haze", WLK_PARTICLE_HAZE},
+      {"rain", WLK_PARTICLE_RAIN},
+      {"ice-column", WLK_PARTICLE_ICE_COLUMN},
+      {"ice-plate", WLK_PARTICLE_ICE_PLATE},
+      {"snow", WLK_PARTICLE_SNOW},
+      {"air", WLK_PARTICLE_AIR},
+      {"henyey-greenstein", WLK_PARTICLE_HENYEY_GREENSTEIN}};
+  for (const auto& [word, value] : words) {
+    const host::Scene one = parse(R"({"media": {"m": {"particle": ")" + word + "\"}}}");
+    EXPECT_EQ(one.media[0].info.particle, value) << word;
+  }
+  const host::Scene whole = parse(R"({"quality": {"scattering": "forward-integer"}})");
+  EXPECT_EQ(whole.quality.scattering, uint32_t{WLK_SCATTERING_FORWARD_INTEGER});
+}
+
+TEST(HostScene, ReadsTheTableOfAUserMedium) {
+  const host_test::TempFolder folder;
+  static_cast<void>(
+      folder.write("p.csv", "angle_deg,red,green,blue\n0,3,2,1\n90,1,1,1\n180,0,4,5\n"));
+  const std::string file =
+      folder.write("s.json", R"({"media": {"m": {"particle": "user", "file": "p.csv"}}})");
+  const host::Scene scene = host::parseScene(host::readSceneJson(file, {}), file);
+  // A copy has pointers of its own.
+  const host::Scene copy = scene;
+  const WlkMediumInfo info = host::mediumInfo(copy.media[0]);
+  ASSERT_EQ(info.userCount, 3u);
+  EXPECT_EQ(info.userAngle, copy.media[0].userAngle.data());
+  EXPECT_EQ(info.userAngle[0], 0.0);
+  EXPECT_EQ(info.userAngle[2], host::PI);
+  EXPECT_EQ(info.userPhase[2], 1.0);
+  EXPECT_EQ(info.userPhase[8], 5.0);
+}
+
+TEST(HostScene, NamesMistakesInMedia) {
+  expectSceneError("media.m.particle: expected one of cloud, fog, haze, rain",
+                   R"({"media": {"m": {"particle": "mist"}}})");
+  expectSceneError("media.m.model: expected one of default, analytic, table, got \"mie\"",
+                   R"({"media": {"m": {"model": "mie"}}})");
+  expectSceneError("fog.model: expected one of default, analytic, table",
+                   R"({"fog": {"model": "x"}})");
+  expectSceneError("media.m.phase: unknown key", R"({"media": {"m": {"phase": "hg"}}})");
+  expectSceneError("media.m.spread: expected a number", R"({"media": {"m": {"spread": "x"}}})");
+  expectSceneError("media.m: expected file", R"({"media": {"m": {"particle": "user"}}})");
+  const host_test::TempFolder folder;
+  const auto expectTableError = [&](const std::string& part, const std::string& table,
+                                    const std::string& particle = "user") {
+    static_cast<void>(folder.write("p.csv", table));
+    const std::string file = folder.write(
+        "s.json", R"({"media": {"m": {"file": "p.csv", "particle": ")" + particle + "\"}}}");
+    expectInputError(part, [&] { host::parseScene(host::readSceneJson(file, {}), file); });
+  };
+  const std::string good = "0,1,1,1\n180,1,1,1\n";
+  expectTableError("media.m.file: expected only with particle user", good, "cloud");
+  expectTableError("p.csv: line 1: expected the columns", "angle,red,green,blue\n" + good);
+  expectTableError("p.csv: line 1: expected the columns", "0,1\n180,1\n");
+  expectTableError("p.csv: expected 2 to 65536 rows, got 1", "0,1,1,1\n");
+  expectTableError("line 1, column angle_deg: expected 0 degrees", "1,1,1,1\n180,1,1,1\n");
+  expectTableError("line 2, column angle_deg: expected 180 degrees", "0,1,1,1\n179,1,1,1\n");
+  expectTableError("line 3, column angle_deg: expected more",
+                   "0,1,1,1\n90,1,1,1\n90,1,1,1\n180,1,1,1\n");
+  expectTableError("line 2, column green: expected a finite", "0,1,1,1\n180,1,-1,1\n");
+  expectTableError("line 1, column blue: expected a finite", "0,1,1,inf\n180,1,1,1\n");
+  expectTableError("line 1, column red: expected a number", "0,nan,1,1\n180,1,1,1\n");
+}
+
 TEST(HostScene, NamesMistakesInVolumes) {
   const std::string field = R"("fields": [{"medium": "m"}])";
   const auto volume = [](const std::string& text) {
@@ -110,12 +197,17 @@ TEST(HostScene, NamesMistakesInVolumes) {
   expectSceneError("volumes.0.fields.0: expected a source", volume(field));
   expectSceneError("volumes.0.fields.0.medium: expected the name of one of media",
                    volume(R"("fields": [{"medium": "fog"}])"));
-  expectSceneError("volumes.0.source.type: expected one of raw, les, vdb, cumulus, got \"obj\"",
-                   volume(R"("source": {"type": "obj"}, )" + field));
+  expectSceneError(
+      "volumes.0.source.type: expected one of raw, les, vdb, cumulus, slab, got \"obj\"",
+      volume(R"("source": {"type": "obj"}, )" + field));
   expectSceneError("volumes.0.source.file: expected a value, got none",
                    volume(R"("source": {"type": "vdb"}, )" + field));
   expectSceneError("volumes.0.source.size.1: expected a whole number",
                    volume(R"("source": {"type": "cumulus", "size": [4, 0, 4]}, )" + field));
+  expectSceneError("volumes.0.source.edge: expected three lengths >= 0",
+                   volume(R"("source": {"type": "slab", "edge": [0, -1, 0]}, )" + field));
+  expectSceneError("volumes.0.source.noise: expected a number in [0, 1]",
+                   volume(R"("source": {"type": "slab", "noise": 1.5}, )" + field));
   expectSceneError("volumes.0.transform: expected min and size, or",
                    volume(R"("source": {"type": "cumulus"}, "transform": {"min": [0, 0, 0],
                              "size": [1, 1, 1], "scale": 2}, )" +

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "common/slab.hpp"
 #include "expect_input_error.hpp"
 #include "temp_folder.hpp"
 
@@ -112,6 +113,36 @@ TEST(HostVolume, CountsVoxelsWithoutOverflow) {
   expectInputError("f: size", [] {
     host::checkedVoxelCount("f", {uint64_t{1} << 32, uint64_t{1} << 32, 2});
   });
+}
+
+TEST(HostSlab, IsFullWithinItsEdgesAndEmptyOnSoftFaces) {
+  host::SlabInfo info;
+  info.size = {8, 4, 2};
+  info.extent = {80.0, 40.0, 20.0};
+  const host::Grid block = host::makeSlab(info);
+  EXPECT_EQ(block.values, std::vector<float>(64, 1.0f));
+  info.edge = {20.0, 0.0, 0.0};
+  const host::Grid soft = host::makeSlab(info);
+  // Voxel centres at 5, 15, 25 m: smoothstep of 1/4 and 3/4 is 5/32 and 27/32.
+  const std::vector<float> row = {0.15625f, 0.84375f, 1, 1, 1, 1, 0.84375f, 0.15625f};
+  for (size_t i = 0; i < soft.values.size(); ++i) {
+    EXPECT_EQ(soft.values[i], row[i % 8]) << i;
+  }
+  expectPoint(host::transformPoint(soft.worldFromVolume, {1.0, 1.0, 1.0}), {80.0, 40.0, 20.0});
+}
+
+TEST(HostSlab, LosesDensityToNoiseAndRepeatsItself) {
+  host::SlabInfo info;
+  info.noise = 0.8;
+  info.noiseSize = 300.0;
+  const host::Grid grid = host::makeSlab(info);
+  const auto [low, high] = std::minmax_element(grid.values.begin(), grid.values.end());
+  EXPECT_GE(*low, 0.2f - 1e-6f);
+  EXPECT_LE(*high, 1.0f);
+  EXPECT_GT(*high - *low, 0.3f);
+  EXPECT_EQ(host::makeSlab(info).values, grid.values);
+  info.seed = 2;
+  EXPECT_NE(host::makeSlab(info).values, grid.values);
 }
 
 class Cumulus : public testing::TestWithParam<uint32_t> {};

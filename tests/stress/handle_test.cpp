@@ -59,6 +59,18 @@ Calls mediumCalls() {
             info.fields = &field;
             WlkVolume volume{};
             return wlkCreateVolume(c, &info, &volume);
+          },
+          [](WlkContext c, uint64_t id) {
+            auto query = make<WlkPhaseQuery>();
+            query.medium.id = id;
+            return wlkEvalPhase(c, &query, nullptr);
+          },
+          [](WlkContext c, uint64_t id) {
+            return wlkSamplePhase(c, {id}, 0, 0, nullptr, nullptr, nullptr);
+          },
+          [](WlkContext c, uint64_t id) {
+            auto optics = make<WlkMediumOptics>();
+            return wlkGetMediumOptics(c, {id}, &optics);
           }};
 }
 

@@ -142,7 +142,7 @@ TEST(StructHeader, OfViewAndFrameStructuresIsCheckedBeforeAnythingChanges) {
   victim.expectUnchanged();
 }
 
-TEST(StructHeader, OfUploadsAndRaysIsChecked) {
+TEST(StructHeader, OfUploadsAndQueriesIsChecked) {
   VictimScene& victim = VictimScene::get();
   const WlkContext c = victim.scene.context;
   const std::vector<float> values(64, 0.75f);
@@ -154,16 +154,16 @@ TEST(StructHeader, OfUploadsAndRaysIsChecked) {
     return wlkUploadVolume(c, victim.volume, p);
   };
   const auto evalSky = [&](const WlkRayBatch* p) { return wlkEvalSky(c, p, nullptr, nullptr); };
-  const auto evalPhase = [](const WlkMediumInfo* p) {
-    return wlkEvalPhase(p, 0, nullptr, nullptr);
-  };
+  const auto evalPhase = [&](const WlkPhaseQuery* p) { return wlkEvalPhase(c, p, nullptr); };
+  auto phaseQuery = make<WlkPhaseQuery>();
+  phaseQuery.medium = victim.medium;
   abuseHeader<WlkVolumeUpload>(upload, uploadVolume);
   abuseHeader<WlkRayBatch>(make<WlkRayBatch>(), evalSky);
-  abuseHeader<WlkMediumInfo>(make<WlkMediumInfo>(), evalPhase);
+  abuseHeader<WlkPhaseQuery>(phaseQuery, evalPhase);
   victim.expectUnchanged();
   expectLongerAccepted<WlkVolumeUpload>(upload, uploadVolume);
   expectLongerAccepted<WlkRayBatch>(make<WlkRayBatch>(), evalSky);
-  expectLongerAccepted<WlkMediumInfo>(make<WlkMediumInfo>(), evalPhase);
+  expectLongerAccepted<WlkPhaseQuery>(phaseQuery, evalPhase);
   victim.scene.upload(victim.volume, {4, 4, 4}, std::vector<float>(64, 0.5f));
   victim.expectUnchanged();
 }
@@ -212,6 +212,9 @@ TEST(StructHeader, OfOutputStructuresIsCheckedAndOnlyKnownBytesAreWritten) {
         return wlkGetFrameStats(c, victim.scene.view, p, &count, nullptr);
       },
       "WlkFrameStats");
+  abuseOutput<WlkMediumOptics>(
+      [&](WlkMediumOptics* p) { return wlkGetMediumOptics(c, victim.medium, p); },
+      "WlkMediumOptics");
   abuseOutput<WlkErrorInfo>([](WlkErrorInfo* p) { return wlkGetLastError(p); }, "WlkErrorInfo");
   abuseOutput<WlkVulkanRequirements>(
       [](WlkVulkanRequirements* p) { return wlkVulkanGetRequirements(p); },
@@ -222,7 +225,7 @@ TEST(StructHeader, InitStructWritesDefaultsWithinTheSizeItIsGiven) {
   std::array<unsigned char, 512> bytes{};
   EXPECT_FAILS(wlkInitStruct(WLK_STRUCT_SKY, sizeof(WlkSky), nullptr), WLK_ERROR_INVALID_ARGUMENT,
                "structure");
-  for (const uint32_t unknown : {0u, 5u, 51u, 1004u, 0xffffffffu}) {
+  for (const uint32_t unknown : {0u, 5u, 52u, 1004u, 0xffffffffu}) {
     EXPECT_FAILS(wlkInitStruct(unknown, 64, bytes.data()), WLK_ERROR_UNKNOWN_STRUCT, "sType");
   }
   EXPECT_FAILS(wlkInitStruct(WLK_STRUCT_SKY, sizeof(WlkSky) - 1, bytes.data()),

@@ -130,7 +130,7 @@ TEST(Limits, OfTheQualityAreChecked) {
       {"lightBufferSize", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.lightBufferSize = 15; }},
       {"lightBufferSize", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.lightBufferSize = 2049; }},
       {"slicing", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.slicing = 3; }},
-      {"scattering", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.scattering = 3; }},
+      {"scattering", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.scattering = 4; }},
       {"flags", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.flags = 2; }},
       {"flags", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.flags = uint64_t{1} << 63; }}};
   for (const auto& test : cases) {
@@ -147,9 +147,9 @@ TEST(Limits, OfMediaLightsAndContextsAreChecked) {
   const WlkContext c = victim.scene.context;
   auto medium = make<WlkMediumInfo>();
   WlkMedium made{};
-  for (const uint32_t phase : {3u, HUGE_COUNT}) {
-    medium.phase = phase;
-    EXPECT_FAILS(wlkCreateMedium(c, &medium, &made), WLK_ERROR_INVALID_ARGUMENT, "phase");
+  for (const uint32_t particle : {10u, HUGE_COUNT}) {
+    medium.particle = particle;
+    EXPECT_FAILS(wlkCreateMedium(c, &medium, &made), WLK_ERROR_INVALID_ARGUMENT, "particle");
   }
   medium = make<WlkMediumInfo>();
   EXPECT_FAILS(wlkCreateMedium(c, &medium, nullptr), WLK_ERROR_INVALID_ARGUMENT, "medium");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every float and double that goes in: NaN, infinities, the largest and smallest numbers, -1, 0.
 // A value is either refused, naming the field and changing nothing, or the picture stays finite.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -129,15 +130,24 @@ TEST(NumberFields, OfTheCameraAreRefusedOrHarmless) {
 TEST(NumberFields, OfMediaAreRefusedOrMakeAFiniteVolume) {
   VictimScene& victim = VictimScene::get();
   const WlkContext c = victim.scene.context;
-  for (const uint32_t phase :
-       {WLK_PHASE_HG_DRAINE, WLK_PHASE_HENYEY_GREENSTEIN, WLK_PHASE_RAYLEIGH}) {
+  for (const uint32_t particle : {WLK_PARTICLE_CLOUD, WLK_PARTICLE_RAIN, WLK_PARTICLE_SNOW,
+                                  WLK_PARTICLE_AIR, WLK_PARTICLE_HENYEY_GREENSTEIN}) {
     auto info = make<WlkMediumInfo>();
-    info.phase = phase;
-    std::vector<NumberField> fields{FLOATS(WlkMediumInfo, singleScatteringAlbedo, 3)};
-    if (phase == WLK_PHASE_HG_DRAINE) {
-      fields.push_back(FLOATS(WlkMediumInfo, dropletDiameter_um, 1));
-    } else if (phase == WLK_PHASE_HENYEY_GREENSTEIN) {
+    info.particle = particle;
+    std::vector<NumberField> fields;
+    if (particle == WLK_PARTICLE_CLOUD) {
+      fields = {FLOATS(WlkMediumInfo, singleScatteringAlbedo, 3),
+                FLOATS(WlkMediumInfo, wavelength_um, 1)};
+    }
+    if (particle == WLK_PARTICLE_CLOUD || particle == WLK_PARTICLE_RAIN) {
+      fields.push_back(FLOATS(WlkMediumInfo, diameter_um, 1));
+      fields.push_back(FLOATS(WlkMediumInfo, spread, 1));
+    } else if (particle == WLK_PARTICLE_SNOW) {
+      fields.push_back(FLOATS(WlkMediumInfo, roughness, 1));
+    } else if (particle == WLK_PARTICLE_HENYEY_GREENSTEIN) {
       fields.push_back(FLOATS(WlkMediumInfo, asymmetry, 1));
+    } else {
+      fields.push_back(FLOATS(WlkMediumInfo, singleScatteringAlbedo, 3));
     }
     abuseNumbers<WlkMediumInfo>(info, fields, [&](const WlkMediumInfo& p) {
       WlkMedium medium{};
@@ -146,8 +156,13 @@ TEST(NumberFields, OfMediaAreRefusedOrMakeAFiniteVolume) {
       if (medium.id != 0) {
         // The medium's phase function over the whole sphere, then away with it.
         const double angles[4] = {0.0, 1e-3, 1.6, 3.1415926535897931};
-        double values[4] = {-1, -1, -1, -1};
-        EXPECT_EQ(wlkEvalPhase(&p, 4, angles, values), WLK_SUCCESS);
+        double values[12];
+        std::fill_n(values, 12, -1.0);
+        auto query = make<WlkPhaseQuery>();
+        query.medium = medium;
+        query.count = 4;
+        query.scatteringAngle = angles;
+        EXPECT_EQ(wlkEvalPhase(c, &query, values), WLK_SUCCESS);
         for (const double value : values) {
           EXPECT_TRUE(std::isfinite(value) && value >= 0) << value;
         }

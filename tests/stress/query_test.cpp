@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CPU queries: rays, lights and phase functions at the edge of their ranges and beyond.
+// CPU queries: rays and lights at the edge of their ranges and beyond.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -179,52 +179,6 @@ TEST(QueryLight, ExtremesAreFiniteAndNeverBrighterThanOutside) {
                "position");
   EXPECT_FAILS(wlkEvalLight(scene.context, 0, origin, nullptr), WLK_ERROR_INVALID_ARGUMENT,
                "irradiance");
-}
-
-TEST(QueryPhase, EveryMediumIsFiniteAndPositiveAtEveryAngle) {
-  std::vector<double> angles{0.0, 5e-324, 1e-12, 1e-6, 1e-3, std::numbers::pi};
-  for (int i = 0; i <= 64; ++i) {
-    angles.push_back(std::numbers::pi * i / 64);
-  }
-  std::vector<double> values(angles.size());
-  const auto count = static_cast<uint32_t>(angles.size());
-  const auto expectPhysical = [&](const WlkMediumInfo& info) {
-    ASSERT_EQ(wlkEvalPhase(&info, count, angles.data(), values.data()), WLK_SUCCESS);
-    for (size_t i = 0; i < values.size(); ++i) {
-      EXPECT_TRUE(std::isfinite(values[i]) && values[i] > 0) << values[i] << " at " << angles[i];
-    }
-  };
-  auto info = make<WlkMediumInfo>();
-  for (const float diameter : {5.0f, 5.0001f, 10.0f, 49.9999f, 50.0f}) {
-    info.dropletDiameter_um = diameter;
-    expectPhysical(info);
-  }
-  info.phase = WLK_PHASE_HENYEY_GREENSTEIN;
-  for (const float g : {-0.999f, -1e-30f, 0.0f, 1e-7f, 0.999f}) {
-    info.asymmetry = g;
-    expectPhysical(info);
-  }
-  info.phase = WLK_PHASE_RAYLEIGH;
-  expectPhysical(info);
-}
-
-TEST(QueryPhase, BadAnglesAreRefusedBeforeTheFirstResult) {
-  const auto info = make<WlkMediumInfo>();
-  for (const double bad : {NOT_A_NUMBER, INFINITE, -INFINITE, -1e-300, 3.15}) {
-    const double angles[2] = {1.0, bad};
-    double values[2] = {-3, -3};
-    EXPECT_FAILS(wlkEvalPhase(&info, 2, angles, values), WLK_ERROR_INVALID_ARGUMENT,
-                 "scatteringAngle");
-    EXPECT_EQ(values[0], -3);
-  }
-  const double angle = 1;
-  double value = 0;
-  EXPECT_FAILS(wlkEvalPhase(nullptr, 1, &angle, &value), WLK_ERROR_INVALID_ARGUMENT,
-               "WlkMediumInfo");
-  EXPECT_FAILS(wlkEvalPhase(&info, 1, nullptr, &value), WLK_ERROR_INVALID_ARGUMENT,
-               "scatteringAngle");
-  EXPECT_FAILS(wlkEvalPhase(&info, 1, &angle, nullptr), WLK_ERROR_INVALID_ARGUMENT, "phase");
-  EXPECT_EQ(wlkEvalPhase(&info, 0, nullptr, nullptr), WLK_SUCCESS);
 }
 
 TEST(LastError, IsOfTheThreadAndNamesEveryCode) {

@@ -129,7 +129,7 @@ WlkMedium SceneBuilder::addMedium() const {
 
 WlkMedium SceneBuilder::addHenyeyGreenstein(float asymmetry) const {
   auto info = make<WlkMediumInfo>();
-  info.phase = WLK_PHASE_HENYEY_GREENSTEIN;
+  info.particle = WLK_PARTICLE_HENYEY_GREENSTEIN;
   info.asymmetry = asymmetry;
   WlkMedium medium{};
   check(wlkCreateMedium(context, &info, &medium));
