@@ -7,13 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "particles/medium.hpp"
 #include "particles/mie_average.hpp"
+#include "particles/solar_disk.hpp"
 #include "reference/phase_reference.hpp"
 
 namespace {
@@ -93,24 +93,33 @@ TEST(Rain, HasBothBowsWhereAiryAndMiePutThem) {
     const auto p = [&](double degrees) { return at(rain, c, degrees); };
     const double primary = extremum(p, 136.5, 141, 1);
     const double secondary = extremum(p, 125, 131, 1);
-    std::printf("channel %zu: primary %.2f, secondary %.2f\n", c, primary, secondary);
     EXPECT_NEAR(primary, airyBow(BOWS[c], 2, 500), NEAR) << c;
     EXPECT_NEAR(secondary, airyBow(BOWS[c], 3, 500), NEAR) << c;
     EXPECT_NEAR(primary, BOWS[c].primary, NEAR) << c;
     EXPECT_NEAR(secondary, BOWS[c].secondary, NEAR) << c;
-    // Alexander's dark band: 64 to 90 and 10 to 14 times darker, for these drops and the sun.
+    // Alexander's dark band: at 134 degrees 64 to 90 and 10 to 14 times darker by Mie theory.
     const double dark = p(extremum(p, 130.5, 136.5, -1));
-    std::printf("  %.1f and %.1f times the band\n", p(primary) / dark, p(secondary) / dark);
     EXPECT_GT(p(primary), 30 * dark) << c;
     EXPECT_GT(p(secondary), 7 * dark) << c;
   }
 }
 
-// Of the extinction half is diffraction [Babinet]: of a disk of size parameter x, 1 - J0^2 - J1^2
-// of z = x a lies within the angle a, and J1^2 of it below the level at a, which stays.
-double diffractedStraight(double diameter_um, double wavelength_um, double spread) {
+// Share of the extinction that does not go straight on for being turned by more than `limit`: half
+// of it is diffraction [Babinet], of which J0^2 + J1^2 of z = x limit lies beyond the limit; the
+// level there, J1^2 of the energy within, stays too. The sun's disk of radius R raises a tail of
+// angle^-3: its mean over the disk is sum of ((3/2)_k)^2 / (k! (k + 1)!) (R / angle)^(2 k) times
+// it.
+double diffractedAside(double diameter_um, double wavelength_um, double spread) {
   constexpr int STEPS = 400;
-  const double limit = 0.5 * DEGREE;  // what counts as straight on
+  const double limit = 0.5 * DEGREE;
+  double level = 0;
+  double beyond = 0;
+  double term = 1;
+  for (int k = 0; k < 20; ++k) {
+    level += term;
+    beyond += term / (2 * k + 1);
+    term *= std::pow((k + 1.5) * SUN_RADIUS / limit, 2) / ((k + 1) * (k + 2));
+  }
   double sum = 0;
   double total = 0;
   for (int i = 0; i < STEPS; ++i) {
@@ -120,7 +129,7 @@ double diffractedStraight(double diameter_um, double wavelength_um, double sprea
     const double z = 2 * PI * radius_um / wavelength_um * limit;
     const double j0 = std::cyl_bessel_j(0, z);
     const double j1 = std::cyl_bessel_j(1, z);
-    sum += weight * 0.5 * (1 - j0 * j0 - 2 * j1 * j1);
+    sum += weight * 0.5 * (beyond * (j0 * j0 + j1 * j1) + level * j1 * j1);
     total += weight;
   }
   return sum / total;
@@ -130,10 +139,10 @@ TEST(Rain, WhatGoesStraightOnIsTheDiffraction) {
   for (const double d : {100.0, 150.0, 250.0, 700.0, 1300.0, 2000.0}) {
     const Particle rain = sized(ParticleType::Rain, d);
     for (size_t c = 0; c < RGB; ++c) {
-      const double truth = diffractedStraight(d, BOWS[c].wavelength_um, 0.25);
-      std::printf("%s%.4f (%.4f)%s", c == 0 ? "straight " : " ", rain.optics.delta[c], truth,
-                  c == 2 ? "\n" : "");
-      EXPECT_NEAR(rain.optics.delta[c], truth, 1) << d << " " << c;
+      const double aside = diffractedAside(d, BOWS[c].wavelength_um, 0.25);
+      // The tail of small drops is no power yet, and the extinction is 2 to 0.03: 12 %. Refraction
+      // near the axis, and the largest drops, which count as those of x = 20 000: 1e-3.
+      EXPECT_NEAR(rain.optics.delta[c], 0.5 - aside, 0.12 * aside + 1.2e-3) << d << " " << c;
       EXPECT_LE(rain.optics.delta[c], 0.50) << d << " " << c;
       EXPECT_GE(rain.optics.delta[c], d < 250 ? 0.35 : 0.44) << d << " " << c;
     }
@@ -161,7 +170,6 @@ TEST(Rain, ScattersWhatDoesNotGoStraightOn) {
   constexpr double NODES = 0.01;
   for (size_t i = 0; i < angles.size(); ++i) {
     const double ln = std::log(scattered * evalParticle(rain, 1, angles[i]) / truth.phase[i]);
-    std::printf("%.1f degrees: ln ratio %+.4f\n", degrees[i], ln);
     EXPECT_LE(std::abs(ln), COLUMNS + NODES) << degrees[i];
   }
   // What goes straight on has a cosine of 1 to 4e-5, of a gap of 0.12.
@@ -185,7 +193,6 @@ TEST(Cloud, HasCoronaAndGloryOfANarrowSpread) {
                            extremum(backward, 2, 4.5, 1)};
   const double printed[] = {3.75, 4.83, 6.97, 1.55, 3.0};
   for (size_t i = 0; i < std::size(printed); ++i) {
-    std::printf("%.3f of %.2f\n", values[i], printed[i]);
     EXPECT_NEAR(values[i] / printed[i], 1, 0.05) << i;
   }
   EXPECT_NEAR(backward(0) * 4 * PI, 0.65, 0.05 * 0.65);
@@ -216,8 +223,6 @@ TEST(Ice, HasItsHalosAtTheMinimumDeviation) {
     for (size_t c = 0; c < RGB; ++c) {
       const double small = halfRise(ice, c, SMALL[c]);
       const double large = halfRise(ice, c, LARGE[c]);
-      std::printf("%s %zu: %.3f of %.3f, %.3f of %.3f\n", particleKind(type).name, c, small,
-                  SMALL[c], large, LARGE[c]);
       EXPECT_NEAR(small, SMALL[c], 0.1) << particleKind(type).name;
       EXPECT_NEAR(large, LARGE[c], 0.15) << particleKind(type).name;
       EXPECT_GT(at(ice, c, SMALL[c] + 0.3), 5 * at(ice, c, SMALL[c] - 0.8));
@@ -243,7 +248,7 @@ TEST(Ice, PassesFromSmoothToRoughWithAllItsLight) {
         for (const double degrees : {0.3, 3.0, 15.0, 23.0, 46.5, 90.0, 140.0, 179.5}) {
           const double mean =
               std::lerp(scattered(ends[0], degrees), scattered(ends[1], degrees), t);
-          EXPECT_NEAR(scattered(between, degrees) / mean, 1, 3 * CALIBRATION) << degrees;
+          EXPECT_NEAR(scattered(between, degrees) / mean, 1, CALIBRATION) << degrees;
         }
       }
     }
