@@ -159,7 +159,9 @@ typedef struct WlkView {
   uint64_t id;
 } WlkView;
 
-/** Host allocator; all three null means malloc and free. */
+/** Host allocator; all three null means malloc and free. Phase functions of media and fog (0.2 MB
+ *  each) and the work space of their computation come from the C++ runtime instead, and are not in
+ *  WlkFrameStats::hostMemory. */
 typedef struct WlkAllocator {
   void* user;
   /** Returns `size` bytes aligned to `alignment` (a power of two), or null. */

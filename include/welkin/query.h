@@ -42,7 +42,8 @@ WLK_API WlkResult wlkEvalSky(WlkContext context, const WlkRayBatch* batch, doubl
 WLK_API WlkResult wlkEvalLight(WlkContext context, uint32_t lightIndex, const double position[3],
                                double irradiance[3]);
 
-/** Scattering angles for wlkEvalPhase and random numbers for wlkSamplePhase. */
+/** How often the light has been scattered. Particles do not absorb here, and light that goes
+ * straight on (WlkMediumOptics::deltaFraction) was not scattered. */
 enum {
   /** Single scattering. */
   WLK_ORDER_SINGLE = 0,
@@ -61,7 +62,7 @@ typedef struct WlkPhaseQuery {
   uint32_t orderKind;
   /** For INTEGER. [1, 1000], default 1. */
   uint32_t order;
-  /** For POISSON. [0, 1e4], default 1. */
+  /** For POISSON: optical depth without the part that goes straight on. [0, 1e4], default 1. */
   double opticalDepth;
   uint32_t count;
   uint32_t reserved0;

@@ -138,22 +138,24 @@ typedef struct WlkMediumInfo {
   /** Median diameter, for droplets and drops. um, 0 or the type's range. Default 0. */
   float diameter_um;
   /** Standard deviation of ln(diameter). CLOUD, FOG and HAZE: 0 or [0.05, 0.5], default 0.25
-   *  ([J23] 1.1); other values than 0.25 need TABLE and 0.1 to 2 s of computing. RAIN: 0 or 0.25.
-   */
+   *  ([J23] 1.1); other values than 0.25 need TABLE, and 0.2 to 10 s of computing here (longest
+   *  for large droplets and wide spreads). RAIN: 0 or 0.25. */
   float spread;
   /** Standard deviation of the facets' tilt, a slope. ICE: [0, 0.2], default 0. SNOW: 0 or
    *  [0.3, 0.6], default 0.45. */
   float roughness;
   /** Mean cosine, for HENYEY_GREENSTEIN. [-0.999, 0.999], default 0.85. */
   float asymmetry;
-  /** Single-scattering albedo. RGB, [0, 1], default 1. */
+  /** Single-scattering albedo. RGB, [0, 1], default 1. Where deltaFraction is not 0, volumes use
+   *  the mean over the colours for what goes straight on: keep it grey there. */
   float singleScatteringAlbedo[3];
   /** One wavelength for all three channels; 0 means red 0.68, green 0.55 and blue 0.44. um, 0 or
-   *  [0.4, 0.7]; other than 0 not for USER. Default 0. */
+   *  [0.4, 0.7]; other than 0 not for USER. Droplets below 0.44 and above 0.68 are computed as for
+   *  another spread. Default 0. */
   float wavelength_um;
   /** For USER: scattering angles in rad, rising from 0 to pi, and 3 values (RGB) for each in any
-   *  unit, [0, 1e30]. Between them ln P is interpolated. Read during the call only. Default null.
-   */
+   *  unit, [0, 1e30]. Between them ln P is interpolated, 0 being 1e-20 of its neighbour; what is
+   *  narrower than 0.1 degrees is averaged. Read during the call only. Default null. */
   const double* userAngle;
   const double* userPhase;
   /** [2, 65536] for USER, else 0. Default 0. */

@@ -44,7 +44,8 @@ typedef struct WlkVulkanRequirements {
   uint32_t fragmentStoresAndAtomics;
 } WlkVulkanRequirements;
 
-/** Fills the requirements. [F] */
+/** Fills the requirements. Besides them, the device must filter R32, R32G32 and R32G32B32A32 float
+ *  images linearly. [F] */
 WLK_API WlkResult wlkVulkanGetRequirements(WlkVulkanRequirements* requirements);
 
 /** Chained to WlkContextInfo: the engine's device. All fields but pipelineCache are needed. */

@@ -8,6 +8,7 @@
 #include "api/context.hpp"
 #include "api/validate.hpp"
 #include "particles/medium.hpp"
+#include "particles/mie_average.hpp"
 #include "tables/scattering_orders.hpp"
 #include "welkin/welkin.h"
 
@@ -93,6 +94,11 @@ ParticleParams checkedParams(const WlkMediumInfo& m, ParticleType type) {
   if (m.wavelength_um != 0) {
     checkRange(m.sType, "wavelength_um", m.wavelength_um, 0.4f, 0.7f);
     params.wavelength_um = static_cast<double>(m.wavelength_um);
+    for (const double own : RGB_WAVELENGTH_UM) {  // 0.44f and its like, as the tables know them
+      if (m.wavelength_um == static_cast<float>(own)) {
+        params.wavelength_um = own;
+      }
+    }
   }
   if (type == ParticleType::User) {
     if (m.wavelength_um != 0) {
@@ -144,9 +150,14 @@ Medium checkedMedium(const WlkMediumInfo* info) {
   const auto type = static_cast<ParticleType>(m.particle);
   const ParticleParams params = checkedParams(m, type);
   checkRange3(m.sType, "singleScatteringAlbedo", m.singleScatteringAlbedo, 0, 1);
-  return makeMedium(
+  Medium medium = makeMedium(
       type, params,
       {m.singleScatteringAlbedo[0], m.singleScatteringAlbedo[1], m.singleScatteringAlbedo[2]});
+  if (medium.particle->empty) {
+    fail(WLK_ERROR_INVALID_ARGUMENT, m.sType, "userPhase",
+         "WlkMediumInfo::userPhase is positive in a range too narrow to be seen");
+  }
+  return medium;
 }
 
 }  // namespace

@@ -133,15 +133,16 @@ WlkResult wlkSetFog(WlkContext context, const WlkFog* fog) {
     if (fog != nullptr) {
       value = checkedFog(fog);
     }
-    if ((value && value->extinction > 0) != c.fogActive()) {
-      c.invalidate();
-    }
     const bool same = value && c.air.fog && c.air.fogPhase &&
                       value->dropletDiameter_um == c.air.fog->dropletDiameter_um &&
                       value->phaseModel == c.air.fog->phaseModel;
-    if (value && !same) {
-      c.air.fogPhase = makeFogPhase(*value);
+    // What may fail first: a failed call changes nothing.
+    const std::shared_ptr<const FogPhaseState> phase =
+        value && !same ? makeFogPhase(*value) : c.air.fogPhase;
+    if ((value && value->extinction > 0) != c.fogActive()) {
+      c.invalidate();
     }
+    c.air.fogPhase = phase;
     c.air.fog = value;
     return WLK_SUCCESS;
   });

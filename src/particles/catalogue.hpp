@@ -49,6 +49,7 @@ struct ParticleOptics {
 
 struct Particle {
   bool analytic = false;  // `phase` is exact; else `curve` is what there is
+  bool empty = false;     // a user's table without energy in some channel
   FogPhaseParams phase;
   PhaseCurve curve;
   ParticleOptics optics;

@@ -23,21 +23,21 @@ text::FogPhase toText(const FogPhaseParams& p) {
   return result;
 }
 
+double meanOf(const std::array<double, RGB>& values) {
+  return (values[0] + values[1] + values[2]) / 3;
+}
+
 }  // namespace
 
 double Medium::extinctionFactor() const {
-  double straight = 0;
-  for (size_t c = 0; c < RGB; ++c) {
-    straight += particle->optics.delta[c] * albedo[c] / RGB;
-  }
-  return 1 - straight;
+  return 1 - meanOf(particle->optics.delta) * meanOf(albedo);
 }
 
 std::array<double, RGB> Medium::scaledAlbedo() const {
-  const double factor = extinctionFactor();
+  const double scattered = 1 - meanOf(particle->optics.delta);
   std::array<double, RGB> scaled{};
   for (size_t c = 0; c < RGB; ++c) {
-    scaled[c] = std::clamp(albedo[c] * (1 - particle->optics.delta[c]) / factor, 0.0, 1.0);
+    scaled[c] = std::clamp(albedo[c] * scattered / extinctionFactor(), 0.0, 1.0);
   }
   return scaled;
 }

@@ -15,8 +15,9 @@ struct Medium {
 
   // Light that goes straight on is neither scattered nor lost: volumes take it off, as
   // P = f delta + (1 - f) P', extinction' = (1 - albedo f) extinction,
-  // albedo' = (1 - f) albedo / (1 - albedo f). Colours differ by less than 1e-2 in f: the
-  // extinction is that of their mean, the albedo makes up for it.
+  // albedo' = (1 - f) albedo / (1 - albedo f). Volumes have one extinction for all colours, so f
+  // and the albedo next to it are means over them: white particles stay white. Exact for a grey
+  // albedo and an f that all colours share.
   double extinctionFactor() const;
   std::array<double, RGB> scaledAlbedo() const;
 };

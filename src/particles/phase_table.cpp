@@ -164,8 +164,10 @@ double tableAsymmetry(const PhaseTable& table, double axisValue, size_t channel)
 }
 
 double tableEfficiency(const PhaseTable& table, double axisValue, size_t channel) {
+  // Geometric: small droplets scatter as the fourth power of their size.
   const TablePlace place = placeIn(table, axisValue, channel);
-  return along(table.efficiency, place, place.t, channel);
+  const double low = along(table.efficiency, place, 0, channel);
+  return low * std::pow(along(table.efficiency, place, 1, channel) / low, place.t);
 }
 
 double tableDelta(const PhaseTable& table, double axisValue, size_t channel) {

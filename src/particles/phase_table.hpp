@@ -28,7 +28,8 @@ struct PhaseTable {
   float logStep;                   // ln P of one code
   std::span<const uint16_t> code;  // [axis][channel][knot]
   // [axis][channel]: mean cosine of P, to which a curve is calibrated; extinction cross-section
-  // over mean geometric cross-section; the part of the extinction that goes straight on, not in P.
+  // over mean geometric cross-section; the part of the scattered light that goes straight on, not
+  // in P.
   std::span<const float> asymmetry;
   std::span<const float> efficiency;
   std::span<const float> delta;
@@ -85,7 +86,7 @@ class TableFunction {
   std::array<PhaseColumn, 2> column_;
 };
 
-// Asymmetry as P, the others linear along the axis.
+// Asymmetry as P, delta linear along the axis, efficiency geometric.
 double tableAsymmetry(const PhaseTable& table, double axisValue, size_t channel);
 double tableEfficiency(const PhaseTable& table, double axisValue, size_t channel);
 double tableDelta(const PhaseTable& table, double axisValue, size_t channel);

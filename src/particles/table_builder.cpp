@@ -185,7 +185,7 @@ TableDraft emptyDraft(TableKind kind) {
     case TableKind::Haze:
       draft.name = "haze";
       draft.knot = warpedAngles(96);
-      draft.axis = evenly(std::log(0.1), std::log(6.0), 24);
+      draft.axis = evenly(std::log(0.08), std::log(6.0), 25);
       break;
     case TableKind::Droplet:
       draft.name = "droplet";

@@ -16,6 +16,14 @@ Device::Device(const DeviceInfo& info, std::pmr::memory_resource* host) : info_(
          VK_API_VERSION_MAJOR(properties_.apiVersion),
          VK_API_VERSION_MINOR(properties_.apiVersion));
   }
+  // Light buffer, fields and scattering tables; Vulkan promises none of it.
+  for (const VkFormat format :
+       {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT}) {
+    if (!supports(format, VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT)) {
+      fail(WLK_ERROR_MISSING_FEATURE, 0, "format",
+           "the device cannot filter images of VkFormat %d linearly", static_cast<int>(format));
+    }
+  }
   loadDeviceFunctions(vk_, info.device, info.headless);
   memory_.emplace(vk_, info.physicalDevice, info.device, host);
 }

@@ -72,12 +72,28 @@ PhaseCurve calibratedCurve(const std::function<double(size_t channel, double ang
   });
 }
 
+ParticleOptics tableOptics(const PhaseTable& table, bool ice, const ParticleParams& params,
+                           const std::function<double(double, double)>& axisValue) {
+  ParticleOptics optics;
+  for (size_t c = 0; c < RGB; ++c) {
+    const WavelengthMix mix = wavelengthMix(table.features, ice, params, c);
+    for (size_t k = 0; k < 2; ++k) {
+      const size_t channel = mix.channel[k];
+      const double axis = axisValue(RGB_WAVELENGTH_UM[channel], mix.wavelength_um);
+      optics.efficiency[c] += mix.weight[k] * tableEfficiency(table, axis, channel);
+      optics.delta[c] += mix.weight[k] * tableDelta(table, axis, channel);
+    }
+  }
+  return optics;
+}
+
 Particle tableParticle(const PhaseTable& table, bool ice, const ParticleParams& params,
                        const std::function<double(double, double)>& axisValue) {
   std::array<WavelengthMix, RGB> mix;
   std::vector<TableFunction> functions;
   std::array<double, RGB> asymmetry{};
   Particle particle;
+  particle.optics = tableOptics(table, ice, params, axisValue);
   for (size_t c = 0; c < RGB; ++c) {
     mix[c] = wavelengthMix(table.features, ice, params, c);
     for (size_t k = 0; k < 2; ++k) {
@@ -85,8 +101,6 @@ Particle tableParticle(const PhaseTable& table, bool ice, const ParticleParams& 
       const double axis = axisValue(RGB_WAVELENGTH_UM[channel], mix[c].wavelength_um);
       functions.emplace_back(table, axis, channel);
       asymmetry[c] += mix[c].weight[k] * tableAsymmetry(table, axis, channel);
-      particle.optics.efficiency[c] += mix[c].weight[k] * tableEfficiency(table, axis, channel);
-      particle.optics.delta[c] += mix[c].weight[k] * tableDelta(table, axis, channel);
     }
   }
   particle.curve = calibratedCurve(

@@ -37,6 +37,11 @@ PhaseCurve calibratedCurve(const std::function<double(size_t channel, double ang
 
 double angleOf(double y);  // rad, of 1 - cos
 
+// What a table says about extinction, at a medium's wavelengths; see tableParticle.
+ParticleOptics tableOptics(
+    const PhaseTable& table, bool ice, const ParticleParams& params,
+    const std::function<double(double tableWavelength_um, double wavelength_um)>& axisValue);
+
 // Everything a table holds, at a medium's wavelengths. `axisValue` of a table channel and a
 // wavelength.
 Particle tableParticle(

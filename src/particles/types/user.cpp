@@ -13,7 +13,8 @@ constexpr double LEAST = 1e-20;  // stands for 0 under the logarithm
 Particle makeUser(const ParticleParams& params) {
   const std::span<const double> angles = params.userAngle;
   Particle particle;
-  particle.curve = makePhaseCurve([&](size_t channel, double y) {
+  std::array<double, RGB> most{};
+  const auto phase = [&](size_t channel, double y) {
     const double angle = angleOf(y);
     const auto above = std::upper_bound(angles.begin() + 1, angles.end() - 1, angle);
     const auto i = static_cast<size_t>(above - angles.begin());
@@ -27,7 +28,13 @@ Particle makeUser(const ParticleParams& params) {
     }
     return scale * std::exp((1 - t) * std::log(std::max(p0 / scale, LEAST)) +
                             t * std::log(std::max(p1 / scale, LEAST)));
+  };
+  particle.curve = makePhaseCurve([&](size_t channel, double y) {
+    const double p = phase(channel, y);
+    most[channel] = std::max(most[channel], p);
+    return p;
   });
+  particle.empty = std::any_of(most.begin(), most.end(), [](double p) { return !(p > 0); });
   return particle;
 }
 
