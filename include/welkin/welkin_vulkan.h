@@ -122,7 +122,7 @@ WLK_API WlkResult wlkVulkanSetVolumeImage(WlkContext context, WlkVolume volume, 
 WLK_API WlkResult wlkVulkanForgetImage(WlkContext context, VkImage image);
 
 /** Records pending uploads. Outside a render pass, once per frame, before the views. [C]
- *  Errors: WRONG_STATE without wlkBeginFrame, NOT_PREPARED. */
+ *  Errors: WRONG_STATE without wlkBeginFrame. */
 WLK_API WlkResult wlkVulkanCmdUpdate(WlkContext context, VkCommandBuffer commandBuffer);
 
 /** Records a view. Outside a render pass. Afterwards the command buffer's pipelines, descriptor

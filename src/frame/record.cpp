@@ -29,8 +29,7 @@ class Recorder {
  public:
   Recorder(vk::Device& device, const vk::Pipelines& pipelines, VkCommandBuffer commands,
            ViewState& view, const RecordInput& input, const ViewTargets& targets)
-      : device_(device),
-        vk_(device.vk()),
+      : vk_(device.vk()),
         pipelines_(pipelines),
         commands_(commands),
         view_(view),
@@ -420,7 +419,6 @@ class Recorder {
     return view_.resources.counters.size() / view_.resources.slots.size() * in_.slot;
   }
 
-  vk::Device& device_;
   const vk::Dispatch& vk_;
   const vk::Pipelines& pipelines_;
   VkCommandBuffer commands_;

@@ -234,10 +234,9 @@ StoredTable store(const TableDraft& draft) {
   table.name = draft.name;
   table.features = draft.features;
   const auto rounded = [](const std::vector<double>& values) {
-    std::vector<float> result;
-    for (const double value : values) {
-      result.push_back(static_cast<float>(value));
-    }
+    std::vector<float> result(values.size());
+    std::transform(values.begin(), values.end(), result.begin(),
+                   [](double value) { return static_cast<float>(value); });
     return result;
   };
   table.knot = rounded(draft.knot);

@@ -15,4 +15,6 @@ const int CASE_FLAT_SEGMENT = 11;
 const int CASE_LIGHT = 12;
 const int CASE_AIR_DEPTH = 13;
 const int CASE_AIR = 14;
-const int CASE_COUNT = 15;
+const int CASE_SAMPLE = 15;
+const int CASE_CURVE = 16;
+const int CASE_COUNT = 17;

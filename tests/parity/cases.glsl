@@ -89,6 +89,15 @@ ParityResult parityCase(int which, ParityRow r) {
     o.first.x = oneMinusCosine(head(r.a), head(r.b));
     o.first.y = fogPhase(p, o.first.x);
   }
+  if (which == CASE_SAMPLE) {
+    o.first.x = sampleHenyeyGreenstein(r.a.x, r.a.y, r.a.z);
+  }
+  if (which == CASE_CURVE) {
+    o.first.x = curveNode(r.a.x);
+    o.first.y = curveCellValue(r.b.x, r.b.y, r.b.z, r.b.w, r.c.x);
+    o.first.z = curveCellInvert(r.b.x, r.b.y, r.b.z, r.b.w, r.c.y);
+    o.first.w = curveCellEnergy(r.b.x, r.b.y, r.b.z, r.b.w);
+  }
   if (which == CASE_SCATTERING_TABLE) {
     o.first.x = phaseCoordinate(r.a.x);
     o.first.y = depthCoordinate(r.a.y);

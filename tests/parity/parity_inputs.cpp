@@ -174,6 +174,23 @@ Row makeRow(int which, Random& random, size_t i) {
     case CASE_FOG_PHASE:
       fogPhaseRow(random, i, row);
       break;
+    case CASE_SAMPLE: {
+      // The gap comes as its own number, rounded once.
+      const double gap = random.coin() ? random.logarithmic(1e-4, 1) : random.uniform(1, 1.5);
+      row[0] = static_cast<float>(1 - gap);
+      row[1] = static_cast<float>(gap);
+      row[2] = i == 0 ? 0.0f : random.uniform(0, 1);
+      break;
+    }
+    case CASE_CURVE:
+      row[0] = i == 0 ? 0.0f : random.uniform(0, 1);
+      row[4] = random.uniform(0, 1);
+      row[5] = row[4] + random.logarithmic(1e-3, 1);
+      row[6] = random.logarithmic(1e-4, 1e3);
+      row[7] = random.logarithmic(1e-4, 1e3);
+      row[8] = row[4] + random.uniform(0, 1) * (row[5] - row[4]);
+      row[9] = i == 0 ? 0.0f : random.uniform(0, 1);
+      break;
     case CASE_SCATTERING_TABLE:
       row[0] = anyY(random, i);
       row[1] = i == 0 ? 0.0f : random.logarithmic(1e-5, 200);
@@ -237,7 +254,8 @@ const char* caseName(int which) {
   constexpr const char* NAMES[CASE_COUNT] = {
       "Numeric",       "Box",         "Altitude",        "Ground",   "Phase",
       "FogParameters", "FogPhase",    "ScatteringTable", "Slices",   "Composite",
-      "Segment",       "FlatSegment", "Light",           "AirDepth", "Air"};
+      "Segment",       "FlatSegment", "Light",           "AirDepth", "Air",
+      "Sample",        "Curve"};
   return NAMES[which];
 }
 
