@@ -164,7 +164,8 @@ void recordUpdate(WlkContext_T& c, VkCommandBuffer commands) {
   c.bytesUploaded = 0;
   c.updateCopies = 0;
   // Room first: from the first command on nothing may throw.
-  c.retired.reserve(c.retired.size() + c.pending.size() + size_t{SCATTERING_FORMS} * c.volumes.count());
+  c.retired.reserve(c.retired.size() + c.pending.size() +
+                    size_t{SCATTERING_FORMS} * c.volumes.count());
   clearOnce(vk, commands, c.dummy2d);
   clearOnce(vk, commands, c.dummy3d);
   for (uint32_t i = 0; i < c.volumes.slotCount(); ++i) {
