@@ -34,18 +34,12 @@ struct Text<double> {
   static double value(double y0, double y1, double p0, double p1, double y) {
     return f64::curveCellValue(y0, y1, p0, p1, y);
   }
-  static double invert(double y0, double y1, double p0, double p1, double q) {
-    return f64::curveCellInvert(y0, y1, p0, p1, q);
-  }
 };
 template <>
 struct Text<float> {
   static float coordinate(float y) { return f32::phaseCoordinate(y); }
   static float value(float y0, float y1, float p0, float p1, float y) {
     return f32::curveCellValue(y0, y1, p0, p1, y);
-  }
-  static float invert(float y0, float y1, float p0, float p1, float q) {
-    return f32::curveCellInvert(y0, y1, p0, p1, q);
   }
 };
 
@@ -155,18 +149,24 @@ T eval(const BasicPhaseCurve<T>& curve, size_t channel, T y) {
   return Text<T>::value(curve.y[i], curve.y[i + 1], p[i], p[i + 1], y);
 }
 
+// A cell and the part q of its energy between its node `near` and the sample.
+template <typename T>
+struct Drawn {
+  size_t near;
+  size_t far;
+  T q;
+};
+
 // From the nearer end in energy, since 1 - xi is exact from 1/2 on.
 template <typename T>
-T sample(const BasicPhaseCurve<T>& curve, size_t channel, T xi) {
-  const std::vector<T>& y = curve.y;
-  const std::vector<T>& p = curve.value[channel];
+Drawn<T> draw(const BasicPhaseCurve<T>& curve, size_t channel, T xi) {
   if (xi <= T(0.5)) {
     const std::vector<T>& cdf = curve.cdf[channel];
     const T part = std::max(xi, T(0));
     const auto above = std::upper_bound(cdf.begin() + 1, cdf.end() - 1, part);
     const auto i = static_cast<size_t>(above - cdf.begin()) - 1;
     const T q = std::clamp((part - cdf[i]) / (cdf[i + 1] - cdf[i]), T(0), T(1));
-    return Text<T>::invert(y[i], y[i + 1], p[i], p[i + 1], q);
+    return {i, i + 1, q};
   }
   const std::vector<T>& tail = curve.tail[channel];
   const T part = std::max(T(1) - xi, T(0));
@@ -174,7 +174,7 @@ T sample(const BasicPhaseCurve<T>& curve, size_t channel, T xi) {
                                       [](T energy, T sought) { return energy > sought; });
   const auto i = static_cast<size_t>(below - tail.begin()) - 1;
   const T q = std::clamp((part - tail[i + 1]) / (tail[i] - tail[i + 1]), T(0), T(1));
-  return Text<T>::invert(y[i + 1], y[i], p[i + 1], p[i], q);
+  return {i + 1, i, q};
 }
 
 }  // namespace
@@ -218,11 +218,28 @@ float evalPhaseCurve(const PhaseCurveF& curve, size_t channel, float y) {
 }
 
 double samplePhaseCurve(const PhaseCurve& curve, size_t channel, double xi) {
-  return sample(curve, channel, xi);
+  const Drawn<double> d = draw(curve, channel, xi);
+  const std::vector<double>& p = curve.value[channel];
+  return f64::curveCellInvert(curve.y[d.near], curve.y[d.far], p[d.near], p[d.far], d.q);
 }
 
-float samplePhaseCurve(const PhaseCurveF& curve, size_t channel, float xi) {
-  return sample(curve, channel, xi);
+// The nodes lie in mirror image: node i of the backward half is as far from the backward end as
+// node CELLS - i from the forward end.
+AxisAngleF samplePhaseCurve(const PhaseCurveF& curve, size_t channel, float xi) {
+  const Drawn<float> d = draw(curve, channel, xi);
+  const bool backward = std::min(d.near, d.far) >= NODES / 2;
+  const auto y = [&](size_t i) { return curve.y[backward ? CELLS - i : i]; };
+  const std::vector<float>& p = curve.value[channel];
+  return {f32::curveCellInvert(y(d.near), y(d.far), p[d.near], p[d.far], d.q), backward};
+}
+
+float evalPhaseCurve(const PhaseCurveF& curve, size_t channel, AxisAngleF angle) {
+  if (!angle.backward) {
+    return eval(curve, channel, angle.y);
+  }
+  const size_t i = cellOf(curve, angle.y);
+  const std::vector<float>& p = curve.value[channel];
+  return f32::curveCellValue(curve.y[i], curve.y[i + 1], p[CELLS - i], p[CELLS - i - 1], angle.y);
 }
 
 double phaseCurveCdf(const PhaseCurve& curve, size_t channel, double y) {

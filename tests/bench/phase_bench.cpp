@@ -195,7 +195,7 @@ void addSampling(const Truth& truth, const Inputs& inputs, const Models& models)
            [p = models.fog](float xi) { return f32::sampleFogPhase(p, xi); });
   const PhaseCurveF& curve = models.curve;
   addBatch("sample/curve, green, float", inputs.xi, curveError,
-           [&curve](float xi) { return samplePhaseCurve(curve, GREEN, xi); });
+           [&curve](float xi) { return samplePhaseCurve(curve, GREEN, xi).y; });
   for (const Particle* particle : {&models.closed, &models.particle}) {
     addBatch(std::string("sample/sampleParticle, ") + (particle->analytic ? "closed" : "table") +
                  ", double",

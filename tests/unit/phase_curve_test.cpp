@@ -46,6 +46,13 @@ double yOf(Real theta) {
   return static_cast<double>(2 * s * s);
 }
 
+// y of a sample, in [0, 2]; the double keeps what the float counts from behind.
+double yOf(AxisAngleF a) {
+  EXPECT_TRUE(a.y >= 0 && a.y <= 1.002f) << a.y;
+  const auto y = static_cast<double>(a.y);
+  return a.backward ? 2 - y : y;
+}
+
 // A rainbow of 2 degrees width, 20 times its surroundings, a glory and a forward peak; 1/sr up to a
 // factor.
 double rainbow(double y) {
@@ -172,21 +179,21 @@ TEST(PhaseCurve, SamplesInvertTheEnergyFromBothEnds) {
       // The sums of 1023 energies, and y near 2, which moves the energy by 2 pi P of an ulp.
       const double density = 2 * PI * evalPhaseCurve(curve, 1, y);
       EXPECT_NEAR(phaseCurveCdf(curve, 1, y), xi, 2 * NODES * EPS + 4 * density * EPS) << xi;
-      const float yF = samplePhaseCurve(small, 1, static_cast<float>(xi));
-      ASSERT_TRUE(yF >= 0 && yF <= 2);
-      // 6 roundings of energies near 1, those of xi, and the density times 4 of y, each up to its
-      // own size; the peak's density times y is below 1.
-      const double slack = 7 + 4 * density * std::max(y, 1e-12);
-      EXPECT_NEAR(phaseCurveCdf(curve, 1, static_cast<double>(yF)), xi, slack * EPS_FLOAT) << xi;
+      const AxisAngleF a = samplePhaseCurve(small, 1, static_cast<float>(xi));
+      // 6 roundings of energies near 1, those of xi, and the density times 4 of y from its end of
+      // the axis, each up to its own size; a peak's density times that y is below 1.
+      const double slack = 7 + 4 * density * std::max(std::min(y, 2 - y), 1e-12);
+      EXPECT_NEAR(phaseCurveCdf(curve, 1, yOf(a)), xi, slack * EPS_FLOAT) << xi;
+      const double exact = evalPhaseCurve(curve, 1, yOf(a));
+      EXPECT_NEAR(evalPhaseCurve(small, 1, a) / exact, 1, 64 * EPS_FLOAT) << xi;
     }
     // Tiny energies at either end: y (or 2 - y) is the energy over 2 pi P. As long as they are
     // below the first cell's.
     const double first = curve.cdf[1][1] / 1000;
     EXPECT_NEAR(samplePhaseCurve(curve, 1, first) * 2 * PI * curve.value[1][0] / first, 1, 1e-3);
     const float firstF = static_cast<float>(first);
-    EXPECT_NEAR(static_cast<double>(samplePhaseCurve(small, 1, firstF)) * 2 * PI *
-                    curve.value[1][0] / first,
-                1, 1e-3);
+    EXPECT_NEAR(
+        yOf(samplePhaseCurve(small, 1, firstF)) * 2 * PI * curve.value[1][0] / first, 1, 1e-3);
     EXPECT_NEAR(
         curve.tail[1][NODES - 3] / ((2 - curve.y[NODES - 3]) * 2 * PI * curve.value[1][NODES - 2]),
         1, 0.05);
@@ -202,8 +209,8 @@ TEST(PhaseCurve, AMillionSamplesHaveTheDensityOfARainbow) {
   std::mt19937 generator(137);
   for (int i = 0; i < SAMPLES; ++i) {
     const float xi = static_cast<float>(generator() >> 8) * 0x1p-24f;
-    const float s = f32::phaseCoordinate(samplePhaseCurve(small, 0, xi));
-    ++counts[std::min(static_cast<size_t>(s * static_cast<float>(BINS)), BINS - 1)];
+    const double s = f64::phaseCoordinate(yOf(samplePhaseCurve(small, 0, xi)));
+    ++counts[std::min(static_cast<size_t>(s * static_cast<double>(BINS)), BINS - 1)];
   }
   // Energies of the function itself, not of the curve.
   std::vector<double> energy(BINS);
@@ -292,14 +299,14 @@ TEST(PhaseCurve, EveryFunctionGivesAValidCurve) {
     for (size_t i = 0; i <= 4096; ++i) {
       const double xi = static_cast<double>(i) / 4096;
       const double y = samplePhaseCurve(curve, c, xi);
-      const float yF = samplePhaseCurve(small, c, static_cast<float>(xi));
+      const double yF = yOf(samplePhaseCurve(small, c, static_cast<float>(xi)));
       ASSERT_TRUE(y >= 0 && y <= 2 && yF >= 0 && yF <= 2) << c << " " << xi;
       EXPECT_TRUE(c != 2 || (y > 0.095 && y < 0.205)) << xi;
       const double value = evalPhaseCurve(curve, c, 2 * xi);
       ASSERT_TRUE(std::isfinite(value) && value >= 0) << c << " " << xi;
     }
     for (const float xi : {0x1p-149f, 0x1p-126f, 1 - 0x1p-24f}) {
-      const float y = samplePhaseCurve(small, c, xi);
+      const double y = yOf(samplePhaseCurve(small, c, xi));
       ASSERT_TRUE(y >= 0 && y <= 2) << c << " " << xi;
     }
   }

@@ -116,6 +116,30 @@ TEST(PhaseSample, FloatInvertsBothLobesOfEveryDiameter) {
   RecordProperty("worst", std::to_string(worst * 1e9) + "e-9");
 }
 
+// Henyey-Greenstein of any g by its end of the axis; the blends are drawn as before.
+TEST(PhaseSample, BackwardPeaksAreAsExactAsForwardOnes) {
+  double worst = 0;
+  for (const double g : {-0.9999, -0.99, -0.95, -0.7, -0.3, 0.3, 0.95}) {
+    const f32::FogPhase p = rounded(f64::henyeyGreensteinOnly(g));
+    for (int i = 0; i < 500; ++i) {
+      const float xi = (static_cast<float>(i) + 0.43f) / 500;
+      const f32::AxisAngle a = f32::sampleFogPhaseAxis(p, xi);
+      ASSERT_EQ(a.side, g < 0 ? -1.0f : 1.0f);
+      // The energy from that end: mirrored, g has the other sign.
+      const auto gap = static_cast<Real>(1 - std::abs(static_cast<double>(p.gHg)));
+      const Real energy = draineCdf(gap, 0, static_cast<Real>(a.y));
+      const Real expected = g < 0 ? 1 - static_cast<Real>(xi) : static_cast<Real>(xi);
+      const auto error = static_cast<double>(std::abs(energy - expected));
+      EXPECT_LE(error, CDF_BOUND) << g << " " << xi;
+      worst = std::max(worst, error);
+    }
+  }
+  RecordProperty("worst", std::to_string(worst * 1e9) + "e-9");
+  const f32::FogPhase fog = rounded(f64::fogPhaseFromDiameter(10));
+  EXPECT_EQ(f32::sampleFogPhaseAxis(fog, 0.7f).y, f32::sampleFogPhase(fog, 0.7f));
+  EXPECT_EQ(f32::sampleFogPhaseAxis(fog, 0.7f).side, 1.0f);
+}
+
 TEST(PhaseSample, DoubleInvertsTheDistribution) {
   for (const double g : {-0.5, 0.1, 0.3, 0.6, 0.9, 0.99}) {
     for (const double alpha : {0.0, 1.0, 30.0, 250.0, 1000.0}) {

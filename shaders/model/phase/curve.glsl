@@ -10,8 +10,13 @@
 //   float p = curveCellValue(Y[i], Y[i + 1], P[i], P[i + 1], y);
 //   // sample: the cell with C[i] <= xi < C[i + 1] by binary search, 11 steps
 //   float q = (xi - C[i]) / (C[i + 1] - C[i]);
+//   // forward half
 //   float y = curveCellInvert(Y[i], Y[i + 1], P[i], P[i + 1], q);
 //   vec3 next = directionFromY(forward, y, 2 pi * another random number);
+//   // backward half, i >= CURVE_NODES / 2: the nodes lie in mirror image, y counts from behind
+//   int k = CURVE_NODES - 1 - i;
+//   float y = curveCellInvert(Y[k], Y[k - 1], P[i], P[i + 1], q);
+//   vec3 next = directionFromY(-forward, y, 2 pi * another random number);
 const int CURVE_NODES = 2048;
 
 // y at table coordinate s in [0, 0.5]; by symmetry 2 - y at 1 - s.

@@ -8,8 +8,8 @@
 // Rewritten, why: the published closed forms divide by g and subtract near-equal numbers; in float
 // the quartic of Draine is off by up to 100 % below 1.5 um and not a number in up to 56 % of
 // samples at alpha = 1000. Here: y in [0, 2] for every g in (-1, 1), alpha >= 0 and xi in [0, 1],
-// and |CDF(y) - xi| <= 4e-6 in float for g in [-0.5, 0.9999], alpha <= 1000 (PhaseSample.*); the
-// limit below -0.5 is that of y itself near 2.
+// and |CDF(y) - xi| <= 4e-6 in float for g in [-0.5, 0.9999], alpha <= 1000 (PhaseSample.*). Below
+// -0.5, where y is near 2, its rounding moves energy: sampleFogPhaseAxis keeps the bound.
 
 // 1 + g - 2 g u = gap + 2 g (1 - u), as a sum of positive terms.
 real sampleDenominator(real g, real gap, real u) {
@@ -74,6 +74,23 @@ real sampleFogPhase(FogPhase p, real xi) {
   }
   real bulk = p.weightD > real(0.0f) ? (xi - weightHg) / p.weightD : real(1.0f);
   return sampleDraine(p.gD, p.gapD, p.alpha, min(bulk, real(1.0f)));
+}
+
+// 1 - cos of the angle to the forward (side 1) or the backward direction (side -1).
+struct AxisAngle {
+  real y;
+  real side;
+};
+
+// sampleFogPhase with backward peaks counted from behind: |CDF - xi| <= 4e-6 in float down to
+// gHg = -0.9999. The direction is directionFromY(a.side * forward, a.y, azimuth).
+AxisAngle sampleFogPhaseAxis(FogPhase p, real xi) {
+  AxisAngle a;
+  a.side = p.gHg < real(0.0f) && p.weightD <= real(0.0f) ? real(-1.0f) : real(1.0f);
+  a.y = a.side < real(0.0f)
+            ? sampleHenyeyGreenstein(-p.gHg, real(1.0f) + p.gHg, min(real(1.0f) - xi, real(1.0f)))
+            : sampleFogPhase(p, xi);
+  return a;
 }
 
 // Unit vector at y = 1 - cos from the unit vector forward; azimuth in rad from an arbitrary side.
