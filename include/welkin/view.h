@@ -247,6 +247,44 @@ WLK_API WlkResult wlkGetFrameStats(WlkContext context, WlkView view, WlkFrameSta
 /** "WLK_REASON_ZERO_DENSITY" and so on. [F] */
 WLK_API const char* wlkReasonName(uint32_t reason);
 
+/* --------------------------------------------------------------------------- estimate of error */
+
+/** What keeps a picture from the truth. */
+enum {
+  /** Sky light that was scattered more than once or came from the ground. */
+  WLK_APPROXIMATION_SKY = 0,
+  /** Light scattered more than once in the fog layer. */
+  WLK_APPROXIMATION_FOG = 1,
+  /** Light turned back inside volumes; with WLK_SCATTERING_SINGLE all that is scattered again. */
+  WLK_APPROXIMATION_VOLUME_SCATTERING = 2,
+  /** Slabs and light-buffer texels. */
+  WLK_APPROXIMATION_VOLUME_SLICES = 3
+};
+#define WLK_MAX_APPROXIMATIONS 8
+
+/** Relative errors of the radiance against all orders of scattering: root mean square over the
+ *  picture's pixels and colours of (radiance - truth) / truth, without opaque surfaces. */
+typedef struct WlkErrorEstimate {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** All approximations together, [0, 1]. */
+  float relativeError;
+  /** WLK_APPROXIMATION_* of the largest part. */
+  uint32_t dominant;
+  /** By WLK_APPROXIMATION_*; the sum of their squares is that of relativeError. */
+  float part[WLK_MAX_APPROXIMATIONS];
+} WlkErrorEstimate;
+
+/** Estimates the error of the view's next frame from the scene, the camera and the quality: rules
+ *  fitted to measurements (docs/accuracy-and-performance.md), right within a factor of 2 for most
+ *  scenes. A volume in an engine's image counts as filled with value 1, uploads by parts as if the
+ *  rest kept its mean. Renders nothing. [C] */
+WLK_API WlkResult wlkGetErrorEstimate(WlkContext context, WlkView view, WlkErrorEstimate* estimate);
+
+/** "WLK_APPROXIMATION_SKY" and so on. [F] */
+WLK_API const char* wlkApproximationName(uint32_t approximation);
+
 #ifdef __cplusplus
 }
 #endif

@@ -40,6 +40,17 @@ Ordered passesOf(const std::vector<WlkPassStats>& passes) {
   return list;
 }
 
+Ordered estimateOf(WlkContext context, WlkView view) {
+  auto estimate = host::make<WlkErrorEstimate>();
+  host::check(wlkGetErrorEstimate(context, view, &estimate), "wlkGetErrorEstimate");
+  return {{"relativeError", estimate.relativeError},
+          {"dominant", wlkApproximationName(estimate.dominant)},
+          {"sky", estimate.part[WLK_APPROXIMATION_SKY]},
+          {"fog", estimate.part[WLK_APPROXIMATION_FOG]},
+          {"volumeScattering", estimate.part[WLK_APPROXIMATION_VOLUME_SCATTERING]},
+          {"volumeSlices", estimate.part[WLK_APPROXIMATION_VOLUME_SLICES]}};
+}
+
 }  // namespace
 
 void writeStatistics(const std::string& file, WlkContext context, WlkView view,
@@ -72,6 +83,7 @@ void writeStatistics(const std::string& file, WlkContext context, WlkView view,
                             {"deviceMemory", stats.deviceMemory},
                             {"hostMemory", stats.hostMemory},
                             {"nonFinitePixels", stats.nonFinitePixels}}},
+                          {"errorEstimate", estimateOf(context, view)},
                           {"passes", passesOf(passes)}};
   std::ofstream stream(file);
   stream << result.dump(2, ' ', false, Ordered::error_handler_t::replace) << '\n';

@@ -64,6 +64,9 @@ inline constexpr WlkStructType structType(const WlkImageData&) {
 inline constexpr WlkStructType structType(const WlkFrameStats&) {
   return WLK_STRUCT_FRAME_STATS;
 }
+inline constexpr WlkStructType structType(const WlkErrorEstimate&) {
+  return WLK_STRUCT_ERROR_ESTIMATE;
+}
 inline constexpr WlkStructType structType(const WlkRayBatch&) {
   return WLK_STRUCT_RAY_BATCH;
 }

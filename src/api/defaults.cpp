@@ -177,6 +177,8 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
       return write(blank<WlkImageData>(sType), structSize, structure);
     case WLK_STRUCT_FRAME_STATS:
       return write(blank<WlkFrameStats>(sType), structSize, structure);
+    case WLK_STRUCT_ERROR_ESTIMATE:
+      return write(blank<WlkErrorEstimate>(sType), structSize, structure);
     case WLK_STRUCT_RAY_BATCH:
       return write(rays(), structSize, structure);
     case WLK_STRUCT_PHASE_QUERY:

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "api/context.hpp"
+#include "api/plan_input.hpp"
 
 namespace {
 
@@ -194,30 +195,7 @@ void recordUpdate(WlkContext_T& c, VkCommandBuffer commands) {
 
 void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
                  const ViewTargets& targets) {
-  PlanInput input;
-  input.layers = view.info.layers;
-  input.sky = c.air.sky.has_value();
-  input.fog = c.fogActive();
-  if (input.sky) {
-    input.airScaleHeight = c.air.sky->scaleHeight;
-  }
-  if (input.fog) {
-    input.fogBaseAltitude = c.air.fog->baseAltitude;
-    input.fogScaleHeight = c.air.fog->scaleHeight;
-  }
-  input.planet = c.air.planet;
-  if (c.air.light) {
-    const WlkLight& light = *c.air.light;
-    input.light = light.irradiance[0] > 0 || light.irradiance[1] > 0 || light.irradiance[2] > 0;
-    input.toLight =
-        glm::normalize(glm::dvec3(light.direction[0], light.direction[1], light.direction[2]));
-    input.lightAngularRadius = 0.5 * light.angularDiameter;
-  }
-  input.eye = {view.camera.position[0], view.camera.position[1], view.camera.position[2]};
-  input.clipFromEye = view.clipFromEye;
-  input.width = view.info.width;
-  input.height = view.info.height;
-  input.quality = resolveQuality(view.quality);
+  PlanInput input = planInput(c, view);
   // Headless and separate targets hold a result even when nothing is drawn; an engine's image that
   // is composited in place does not need one.
   input.mustWrite = view.info.composite == WLK_COMPOSITE_SEPARATE ||
@@ -229,12 +207,8 @@ void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
     if (volume == nullptr) {
       continue;
     }
-    PlanVolume plan;
-    plan.id = c.volumes.idOf(i);
-    plan.index = static_cast<uint32_t>(c.recordVolumes.size());
-    plan.worldFromBox = volume->worldFromBox;
-    plan.anyDensity = volume->anyDensity();
-    view.planVolumes.push_back(plan);
+    view.planVolumes.push_back(
+        planVolume(c, i, static_cast<uint32_t>(c.recordVolumes.size()), *volume));
     RecordVolume record;
     record.state = volume;
     for (uint32_t f = 0; f < volume->fieldCount; ++f) {

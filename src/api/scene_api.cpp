@@ -274,7 +274,7 @@ WlkResult wlkUploadVolume(WlkContext context, WlkVolume volume, const WlkVolumeU
     const uint64_t texel = format == VK_FORMAT_R32_SFLOAT ? 4 : 2;
     pending.staging = vk::Buffer(device, texel * u.extent[0] * u.extent[1] * u.extent[2],
                                  VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true);
-    const float largest = convertVoxels(u, format == VK_FORMAT_R32_SFLOAT, pending.staging.data());
+    const VoxelSums sums = convertVoxels(u, format == VK_FORMAT_R32_SFLOAT, pending.staging.data());
     pending.region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     pending.region.imageOffset = {static_cast<int32_t>(u.offset[0]),
                                   static_cast<int32_t>(u.offset[1]),
@@ -287,7 +287,11 @@ WlkResult wlkUploadVolume(WlkContext context, WlkVolume volume, const WlkVolumeU
     }
     const bool whole = u.extent[0] == state.size[0] && u.extent[1] == state.size[1] &&
                        u.extent[2] == state.size[2];
-    field.largest = whole ? largest : std::max(field.largest, largest);
+    field.largest = whole ? sums.largest : std::max(field.largest, sums.largest);
+    const double all = double(state.size[0]) * state.size[1] * state.size[2];
+    const double part = double(u.extent[0]) * u.extent[1] * u.extent[2] / all;
+    field.mean = (1 - part) * field.mean + sums.sum / all;
+    field.meanSquare = (1 - part) * field.meanSquare + sums.squares / all;
     return WLK_SUCCESS;
   });
 }

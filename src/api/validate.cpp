@@ -48,6 +48,8 @@ const char* structName(uint32_t sType) {
       return "WlkImageData";
     case WLK_STRUCT_FRAME_STATS:
       return "WlkFrameStats";
+    case WLK_STRUCT_ERROR_ESTIMATE:
+      return "WlkErrorEstimate";
     case WLK_STRUCT_RAY_BATCH:
       return "WlkRayBatch";
     case WLK_STRUCT_VULKAN_DEVICE_INFO:

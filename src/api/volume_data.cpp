@@ -113,18 +113,21 @@ float floatFromHalf(uint16_t bits) {
   return (bits & 0x8000u) != 0 ? -value : value;
 }
 
-float convertVoxels(const WlkVolumeUpload& u, bool toFloat, void* out) {
+VoxelSums convertVoxels(const WlkVolumeUpload& u, bool toFloat, void* out) {
   const uint64_t voxel = bytesPerVoxel(u.format);
   const uint64_t rowPitch = u.rowPitch == 0 ? voxel * u.extent[0] : u.rowPitch;
   const uint64_t slicePitch = u.slicePitch == 0 ? rowPitch * u.extent[1] : u.slicePitch;
-  float largest = 0;
+  VoxelSums sums;
   auto* to = static_cast<unsigned char*>(out);
   for (uint32_t z = 0; z < u.extent[2]; ++z) {
     for (uint32_t y = 0; y < u.extent[1]; ++y) {
       const auto* from = static_cast<const unsigned char*>(u.data) + z * slicePitch + y * rowPitch;
       for (uint32_t x = 0; x < u.extent[0]; ++x, from += voxel) {
         const float value = readVoxel(from, u.format);
-        largest = value > largest ? value : largest;
+        sums.largest = value > sums.largest ? value : sums.largest;
+        const double wide{value};
+        sums.sum += wide;
+        sums.squares += wide * wide;
         if (toFloat) {
           std::memcpy(to, &value, sizeof value);
           to += sizeof value;
@@ -136,7 +139,7 @@ float convertVoxels(const WlkVolumeUpload& u, bool toFloat, void* out) {
       }
     }
   }
-  return largest;
+  return sums;
 }
 
 }  // namespace welkin

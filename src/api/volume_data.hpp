@@ -14,7 +14,12 @@ uint16_t halfFromFloat(float value);
 float floatFromHalf(uint16_t bits);
 
 // Writes the voxels tightly packed as float or half; what is negative or not finite becomes 0, what
-// is over 65504 becomes that. Returns the largest value written.
-float convertVoxels(const WlkVolumeUpload& upload, bool toFloat, void* out);
+// is over 65504 becomes that.
+struct VoxelSums {
+  float largest = 0;
+  double sum = 0;
+  double squares = 0;
+};
+VoxelSums convertVoxels(const WlkVolumeUpload& upload, bool toFloat, void* out);
 
 }  // namespace welkin

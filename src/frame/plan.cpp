@@ -181,22 +181,27 @@ PlannedVolume planVolume(const PlanInput& in, const PlanVolume& volume) {
 }  // namespace
 
 SliceQuality resolveQuality(const WlkQuality& quality) {
-  constexpr std::array<SliceQuality, 4> LEVELS{{{32, 32, 96, false, true, false, false},
-                                                {64, 64, 160, false, true, false, false},
-                                                {128, 64, 256, false, true, false, false},
-                                                {256, 64, 448, false, true, false, false}}};
-  SliceQuality result = LEVELS[quality.level];
-  if (quality.sliceCount != 0) {
-    result.sliceCount = quality.sliceCount;
-  }
-  result.batchSize = quality.batchSize != 0 ? quality.batchSize : result.batchSize;
-  result.batchSize = std::min(result.batchSize, result.sliceCount);
-  if (quality.lightBufferSize != 0) {
-    result.lightSize = quality.lightBufferSize;
-  }
-  result.halfAngle = quality.slicing == WLK_SLICING_HALF_ANGLE;
-  result.forwardScattering = quality.scattering != WLK_SCATTERING_SINGLE;
-  result.wholeOrders = quality.scattering == WLK_SCATTERING_FORWARD_INTEGER;
+  struct Level {
+    uint32_t sliceCount, batchSize, lightSize, slicing, scattering;
+  };
+  // Points of the measured front of time and error (docs/accuracy-and-performance.md). Poisson
+  // counts cost what the paper's whole numbers do, with less error: every level takes them.
+  constexpr uint32_t ALIGNED = WLK_SLICING_LIGHT_ALIGNED;
+  constexpr uint32_t FORWARD = WLK_SCATTERING_FORWARD;
+  constexpr std::array<Level, 4> LEVELS{{{32, 32, 96, ALIGNED, FORWARD},
+                                         {64, 64, 160, ALIGNED, FORWARD},
+                                         {128, 64, 256, ALIGNED, FORWARD},
+                                         {256, 64, 448, ALIGNED, FORWARD}}};
+  const Level& level = LEVELS[quality.level];
+  const auto either = [](uint32_t chosen, uint32_t usual) { return chosen != 0 ? chosen : usual; };
+  const uint32_t scattering = either(quality.scattering, level.scattering);
+  SliceQuality result{};
+  result.sliceCount = either(quality.sliceCount, level.sliceCount);
+  result.batchSize = std::min(either(quality.batchSize, level.batchSize), result.sliceCount);
+  result.lightSize = either(quality.lightBufferSize, level.lightSize);
+  result.halfAngle = either(quality.slicing, level.slicing) == WLK_SLICING_HALF_ANGLE;
+  result.forwardScattering = scattering != WLK_SCATTERING_SINGLE;
+  result.wholeOrders = scattering == WLK_SCATTERING_FORWARD_INTEGER;
   result.noSkip = (quality.flags & WLK_QUALITY_NO_SKIP) != 0;
   return result;
 }

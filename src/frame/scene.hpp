@@ -34,6 +34,9 @@ struct FieldState {
   Medium medium;
   float extinctionScale = 0;
   float largest = 0;  // bound of the values in `image`
+  // Means of the values and their squares; of an upload by parts as if the rest kept its mean.
+  double mean = 0;
+  double meanSquare = 0;
   vk::Image image;
   std::optional<WlkVulkanImage> external;
 };

@@ -46,6 +46,10 @@ Calls viewCalls() {
             auto stats = make<WlkFrameStats>();
             uint32_t count = 0;
             return wlkGetFrameStats(c, {id}, &stats, &count, nullptr);
+          },
+          [](WlkContext c, uint64_t id) {
+            auto estimate = make<WlkErrorEstimate>();
+            return wlkGetErrorEstimate(c, {id}, &estimate);
           }};
 }
 

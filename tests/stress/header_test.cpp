@@ -212,6 +212,9 @@ TEST(StructHeader, OfOutputStructuresIsCheckedAndOnlyKnownBytesAreWritten) {
         return wlkGetFrameStats(c, victim.scene.view, p, &count, nullptr);
       },
       "WlkFrameStats");
+  abuseOutput<WlkErrorEstimate>(
+      [&](WlkErrorEstimate* p) { return wlkGetErrorEstimate(c, victim.scene.view, p); },
+      "WlkErrorEstimate");
   abuseOutput<WlkMediumOptics>(
       [&](WlkMediumOptics* p) { return wlkGetMediumOptics(c, victim.medium, p); },
       "WlkMediumOptics");

@@ -224,7 +224,7 @@ TEST(Ice, HasItsHalosAtTheMinimumDeviation) {
       const double small = halfRise(ice, c, SMALL[c]);
       const double large = halfRise(ice, c, LARGE[c]);
       EXPECT_NEAR(small, SMALL[c], 0.1) << particleKind(type).name;
-      EXPECT_NEAR(large, LARGE[c], 0.15) << particleKind(type).name;
+      EXPECT_NEAR(large, LARGE[c], 0.1) << particleKind(type).name;
       EXPECT_GT(at(ice, c, SMALL[c] + 0.3), 5 * at(ice, c, SMALL[c] - 0.8));
     }
   }

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "frame/error_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace welkin {
+namespace {
+
+constexpr int GRID = 12;  // rays along either side of the picture
+
+using Color = std::array<double, 3>;
+
+// Fitted constants: m = light left out over light computed, of which the error is m / (1 + m).
+struct Fit {
+  // Sky: m = skyScale depth^skyPower / sunlight^skySun, with the vertical optical depth over the
+  // point that lights the ray and the transmittance of the sun's light there.
+  double skyScale, skyPower, skySun;
+  // Fog: the same with (1 - g) depth along the ray.
+  double fogScale, fogPower, fogSun;
+  // Volumes: m = scale ((1 - g) depth)^power, depth the mean of those along the ray and along the
+  // light; seen with the light (cosine 1) and against it (-1), between them in the logarithm.
+  double forwardWith, forwardAgainst, forwardPower;
+  double singleWith, singleAgainst, singlePower;
+  // Slabs: slabScale (optical depth of a slab)^slabPower + texelScale (texel / voxel)^texelPower.
+  double slabScale, slabPower, texelScale, texelPower;
+};
+constexpr Fit FIT{1.2, 1.0, 0.5, 1.0, 1.0, 0.5, 2.0, 6.0, 1.0, 4.0, 8.0, 1.0, 0.1, 1.0, 0.02, 1.0};
+
+double missing(double m) {
+  return m / (1 + m);
+}
+
+// What of a ray a species contributes: radiance per irradiance of an isotropic phase function, and
+// the optical depth.
+struct Species {
+  Color radiance{};
+  Color depth{};
+};
+
+Species speciesAlong(const AirInput& air, const PlanetFrame& eye, const glm::dvec3& direction,
+                     const ErrorInput& in, double distance) {
+  Species s;
+  constexpr double ISOTROPIC = 0.0795774715459477;
+  const double phase[3] = {ISOTROPIC, ISOTROPIC, ISOTROPIC};
+  evalAirRay(air, eye.altitude, glm::dot(direction, eye.up), glm::dot(in.toLight, eye.up),
+             glm::dot(direction, in.toLight), distance, phase, in.lightAngularRadius,
+             s.radiance.data(), s.depth.data());
+  return s;
+}
+
+// Distances at which a ray from the eye enters and leaves the unit box; empty if entry >= exit.
+std::array<double, 2> crossBox(const glm::dmat3& boxFromWorld, const glm::dvec3& eyeInBox,
+                               const glm::dvec3& direction) {
+  const glm::dvec3 step = boxFromWorld * direction;
+  double entry = 0;
+  double exit = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const double a = -eyeInBox[i] / step[i];
+    const double b = (1 - eyeInBox[i]) / step[i];
+    if (step[i] == 0) {
+      if (eyeInBox[i] < 0 || eyeInBox[i] > 1) {
+        return {0, 0};
+      }
+      continue;
+    }
+    entry = std::max(entry, std::min(a, b));
+    exit = std::min(exit, std::max(a, b));
+  }
+  return {entry, exit};
+}
+
+// A volume with what does not depend on the ray.
+class Body {
+ public:
+  Body(const ErrorVolume& volume, const ErrorInput& in)
+      : volume_(volume), cover_(std::cbrt(volume.fill * volume.fill)) {
+    const glm::dmat3 axes(volume.worldFromBox);
+    boxFromWorld_ = glm::inverse(axes);
+    eyeInBox_ = boxFromWorld_ * (in.eye - volume.worldFromBox[3]);
+    // Mean chord along the light: volume over shadow.
+    const double shadow = std::abs(glm::dot(glm::cross(axes[0], axes[1]), in.toLight)) +
+                          std::abs(glm::dot(glm::cross(axes[1], axes[2]), in.toLight)) +
+                          std::abs(glm::dot(glm::cross(axes[2], axes[0]), in.toLight));
+    const double size = std::abs(glm::determinant(axes));
+    const double thin = std::cbrt(volume.fill);  // the body's chord over the box's
+    lightDepth_ = volume.extinction * size / shadow * thin;
+    thin_ = thin;
+    const double texel = std::sqrt(shadow) / in.quality.lightSize;
+    const double voxel = std::cbrt(size / (volume.voxels[0] * volume.voxels[1] * volume.voxels[2]));
+    slices_ = FIT.slabScale * std::pow(lightDepth_ / in.quality.sliceCount, FIT.slabPower) +
+              FIT.texelScale * std::pow(texel / voxel, FIT.texelPower);
+  }
+
+  // Share of the pixel that the body hides, and its errors there.
+  struct Seen {
+    double share = 0;
+    double scattering = 0;
+    double slices = 0;
+  };
+  Seen along(const glm::dvec3& direction, const ErrorInput& in) const {
+    const std::array<double, 2> cut = crossBox(boxFromWorld_, eyeInBox_, direction);
+    if (!(cut[1] > cut[0])) {
+      return {};
+    }
+    const double depth = volume_.extinction * (cut[1] - cut[0]) * thin_;
+    Seen seen;
+    seen.share = cover_ * -std::expm1(-depth);
+    const double both = std::sqrt(std::min(depth, 1e3) * std::min(lightDepth_, 1e3));
+    const double with = 0.5 * (1 + glm::dot(direction, in.toLight));
+    const bool forward = in.quality.forwardScattering;
+    const double a = forward ? FIT.forwardWith : FIT.singleWith;
+    const double b = forward ? FIT.forwardAgainst : FIT.singleAgainst;
+    const double reduced = forward ? both * volume_.gap : both;
+    const double scale = std::exp(with * std::log(a) + (1 - with) * std::log(b));
+    const double power = forward ? FIT.forwardPower : FIT.singlePower;
+    seen.scattering = missing(volume_.albedo * scale * std::pow(reduced, power));
+    seen.slices = std::min(slices_, 1.0);
+    return seen;
+  }
+
+ private:
+  const ErrorVolume& volume_;
+  glm::dmat3 boxFromWorld_{1.0};
+  glm::dvec3 eyeInBox_{0};
+  double cover_;
+  double thin_ = 1;
+  double lightDepth_ = 0;
+  double slices_ = 0;
+};
+
+}  // namespace
+
+ErrorParts estimateError(const ErrorInput& in) {
+  ErrorParts squares{};
+  if (!in.light) {
+    return squares;
+  }
+  const PlanetFrame eye = planetFrameAt(in.planet, in.eye);
+  AirInput airOnly = in.air;
+  airOnly.fogExtinction = 0;
+  AirInput fogOnly = in.air;
+  std::fill(std::begin(fogOnly.airScattering), std::end(fogOnly.airScattering), 0.0);
+  Color airDepth{};
+  Color fogDepth{};
+  Color sunDepth{};
+  double visible = 0;
+  const double sunMu = glm::dot(in.toLight, eye.up);
+  evalLightDepth(airOnly, eye.altitude, 1.0, 0, airDepth.data(), &visible);
+  evalLightDepth(fogOnly, eye.altitude, 1.0, 0, fogDepth.data(), &visible);
+  evalLightDepth(in.air, eye.altitude, std::max(sunMu, 0.0), 0, sunDepth.data(), &visible);
+  Color skyError{};
+  Color sunlight{};
+  for (size_t c = 0; c < 3; ++c) {
+    sunlight[c] = std::exp(-std::min(sunDepth[c], 30.0));
+    skyError[c] = missing(FIT.skyScale * std::pow(airDepth[c], FIT.skyPower) *
+                          std::pow(sunlight[c], -FIT.skySun));
+  }
+
+  for (int y = 0; y < GRID; ++y) {
+    for (int x = 0; x < GRID; ++x) {
+      const glm::dvec4 ndc((x + 0.5) * 2.0 / GRID - 1, (y + 0.5) * 2.0 / GRID - 1, 0.5, 1);
+      const glm::dvec4 far = in.eyeFromNdc * ndc;
+      const glm::dvec3 direction = glm::normalize(glm::dvec3(far) / far.w);
+      double free = 1;  // share of the pixel that no volume hides
+      for (const ErrorVolume& volume : in.volumes) {
+        const Body::Seen seen = Body(volume, in).along(direction, in);
+        const double share = free * seen.share;
+        squares[WLK_APPROXIMATION_VOLUME_SCATTERING] += share * seen.scattering * seen.scattering;
+        squares[WLK_APPROXIMATION_VOLUME_SLICES] += share * seen.slices * seen.slices;
+        free -= share;
+      }
+      const double ground =
+          evalGroundDistance(eye.altitude, glm::dot(direction, eye.up), in.planet.radius);
+      const double distance = ground >= 0 ? ground : std::numeric_limits<double>::infinity();
+      const Species air = speciesAlong(airOnly, eye, direction, in, distance);
+      const Species fog = speciesAlong(fogOnly, eye, direction, in, distance);
+      for (size_t c = 0; c < 3; ++c) {
+        const double sum = air.radiance[c] + fog.radiance[c];
+        if (!(sum > 0)) {
+          continue;
+        }
+        const double reduced = std::min(fog.depth[c], 50.0) * in.fogGap;
+        const double fogError = missing(FIT.fogScale * std::pow(reduced, FIT.fogPower) *
+                                        std::pow(sunlight[c], -FIT.fogSun));
+        squares[WLK_APPROXIMATION_SKY] +=
+            free * air.radiance[c] / sum * skyError[c] * skyError[c] / 3;
+        squares[WLK_APPROXIMATION_FOG] += free * fog.radiance[c] / sum * fogError * fogError / 3;
+      }
+    }
+  }
+  ErrorParts parts{};
+  std::transform(squares.begin(), squares.end(), parts.begin(),
+                 [](double square) { return std::sqrt(square / (GRID * GRID)); });
+  return parts;
+}
+
+}  // namespace welkin
