@@ -48,6 +48,8 @@ RULES = [
      rf"{STANDARD}|{GLM}|{VULKAN}"),
     (r"tests/reference/.*", r"tests/reference/.*", rf"{STANDARD}|gtest/gtest\.h"),
     (r"tests/abi/.*", r"include/welkin/.*", rf"{STANDARD}|{VULKAN}"),
+    # The commands `reference` and `slab` draw with the tests' independent renderer and solver.
+    (r"samples/cli/.*", r"include/welkin/.*|samples/.*|tests/reference/.*", ANY),
     (r"samples/.*", r"include/welkin/.*|samples/.*", ANY),
     # These drive the SDK through the sample host's scenes and images.
     (r"tests/(host|image|bench|budget)/.*", r"(src|tests|include|shaders|samples/common)/.*", ANY),

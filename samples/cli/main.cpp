@@ -26,6 +26,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   cli::addRender(app);
   cli::addCompare(app);
+  cli::addReference(app);
   cli::addSky(app);
   cli::addPhase(app);
   try {

@@ -23,7 +23,8 @@ class Sum {
   double lost_ = 0.0;
 };
 
-// Calls visit(a, b) for each colour sample that is finite in both; returns the number of others.
+// Calls visit(a, b, index) for each colour sample that is finite in both; returns the number of
+// others.
 template <class Visit>
 uint64_t visitSamples(const Image& picture, const Image& reference, const Visit& visit) {
   uint64_t nonFinite = 0;
@@ -35,7 +36,7 @@ uint64_t visitSamples(const Image& picture, const Image& reference, const Visit&
     const double a = double{picture.rgba[i]};
     const double b = double{reference.rgba[i]};
     if (std::isfinite(a) && std::isfinite(b)) {
-      visit(a, b);
+      visit(a, b, i);
     } else {
       ++nonFinite;
     }
@@ -43,17 +44,41 @@ uint64_t visitSamples(const Image& picture, const Image& reference, const Visit&
   return nonFinite;
 }
 
+// What is left of a mean square once the mean variance of the reference is taken off.
+double withoutNoise(double meanSquare, double variance) {
+  return std::max(meanSquare - variance, 0.0);
+}
+
 }  // namespace
 
-ImageMetrics compareImages(const Image& picture, const Image& reference) {
+double nearestRank(std::vector<double>& values, double fraction) {
+  if (values.empty()) {
+    return 0.0;
+  }
+  // 0.95 and the like are not exact in binary: without the small term a product that should be a
+  // whole number could end up above it.
+  constexpr double ROUNDING = 1e-9;
+  const double rank = std::ceil(fraction * static_cast<double>(values.size()) - ROUNDING) - 1.0;
+  const auto index = static_cast<size_t>(std::max(rank, 0.0));
+  const auto nth = values.begin() + static_cast<ptrdiff_t>(std::min(index, values.size() - 1));
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+ImageMetrics compareImages(const Image& picture, const Image& reference, const Image* variance) {
   ImageMetrics metrics;
   Sum magnitude;
   Sum difference;
   Sum square;
-  metrics.nonFinite = visitSamples(picture, reference, [&](double a, double b) {
+  Sum noise;
+  metrics.nonFinite = visitSamples(picture, reference, [&](double a, double b, size_t i) {
     magnitude.add(std::abs(b));
     difference.add(a - b);
     square.add((a - b) * (a - b));
+    if (variance != nullptr) {
+      noise.add(double{variance->rgba[i]});
+    }
+    metrics.negative += a < 0.0 ? 1u : 0u;
     ++metrics.samples;
   });
   if (metrics.samples == 0) {
@@ -71,17 +96,28 @@ ImageMetrics compareImages(const Image& picture, const Image& reference) {
   std::vector<double> errors;
   errors.reserve(metrics.samples);
   Sum relativeSquare;
-  visitSamples(picture, reference, [&](double a, double b) {
-    const double error = std::abs(a - b) / std::max(std::abs(b), floor);
+  Sum relativeNoise;
+  visitSamples(picture, reference, [&](double a, double b, size_t i) {
+    const double divisor = std::max(std::abs(b), floor);
+    const double error = std::abs(a - b) / divisor;
     relativeSquare.add(error * error);
     errors.push_back(error);
+    if (variance != nullptr) {
+      relativeNoise.add(double{variance->rgba[i]} / divisor / divisor);
+    }
   });
   metrics.relMse = relativeSquare.value() / count;
   metrics.maxRelativeError = *std::max_element(errors.begin(), errors.end());
-  const auto rank = static_cast<size_t>(std::ceil(0.999 * count)) - 1;
-  const auto nth = errors.begin() + static_cast<std::ptrdiff_t>(std::min(rank, errors.size() - 1));
-  std::nth_element(errors.begin(), nth, errors.end());
-  metrics.p999RelativeError = *nth;
+  metrics.medianRelativeError = nearestRank(errors, 0.5);
+  metrics.p90RelativeError = nearestRank(errors, 0.9);
+  metrics.p95RelativeError = nearestRank(errors, 0.95);
+  metrics.p999RelativeError = nearestRank(errors, 0.999);
+  if (variance != nullptr) {
+    metrics.relMseDenoised = withoutNoise(metrics.relMse, relativeNoise.value() / count);
+    metrics.rmseOverMeanDenoised =
+        std::sqrt(withoutNoise(square.value() / count, noise.value() / count)) / scale;
+    metrics.standardError = std::sqrt(relativeNoise.value() / count);
+  }
   return metrics;
 }
 

@@ -46,8 +46,8 @@ float evalPhaseCurve(const PhaseCurveF& curve, size_t channel, float y);
 // y up to which the part xi in [0, 1] of the energy is scattered: exact inversion.
 double samplePhaseCurve(const PhaseCurve& curve, size_t channel, double xi);
 
-// The same for a float curve, counted from the nearer end of the axis: in float, y near 2 would move
-// the energy of a narrow backward peak by its rounding (Henyey-Greenstein -0.95: 4e-5).
+// The same for a float curve, counted from the nearer end of the axis: in float, y near 2 would
+// move the energy of a narrow backward peak by its rounding (Henyey-Greenstein -0.95: 4e-5).
 struct AxisAngleF {
   float y;        // 1 - cos of the angle to the forward or backward direction, [0, 1.002]
   bool backward;  // which of the two

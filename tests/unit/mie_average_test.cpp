@@ -265,9 +265,8 @@ TEST(MieAverage, GivesThePublishedFitItsPublishedError) {
     double diameter_um, asymmetry, error;
   };
   const std::vector<double> angles = scaled(range(0, 180, 0.5), DEGREE);
-  for (const Row& row :
-       {Row{5, 0.8332, 0.0803}, Row{10, 0.8541, 0.1110}, Row{20, 0.8671, 0.1452},
-        Row{50, 0.8764, 0.2149}}) {
+  for (const Row& row : {Row{5, 0.8332, 0.0803}, Row{10, 0.8541, 0.1110}, Row{20, 0.8671, 0.1452},
+                         Row{50, 0.8764, 0.2149}}) {
     const MieAverage mean =
         averageMie(logNormal(row.diameter_um, 0.25), greyWater(1.333, 8), angles, nodes(512));
     const reference::Fog fit(row.diameter_um);

@@ -192,8 +192,8 @@ TEST(PhaseCurve, SamplesInvertTheEnergyFromBothEnds) {
     const double first = curve.cdf[1][1] / 1000;
     EXPECT_NEAR(samplePhaseCurve(curve, 1, first) * 2 * PI * curve.value[1][0] / first, 1, 1e-3);
     const float firstF = static_cast<float>(first);
-    EXPECT_NEAR(
-        yOf(samplePhaseCurve(small, 1, firstF)) * 2 * PI * curve.value[1][0] / first, 1, 1e-3);
+    EXPECT_NEAR(yOf(samplePhaseCurve(small, 1, firstF)) * 2 * PI * curve.value[1][0] / first, 1,
+                1e-3);
     EXPECT_NEAR(
         curve.tail[1][NODES - 3] / ((2 - curve.y[NODES - 3]) * 2 * PI * curve.value[1][NODES - 2]),
         1, 0.05);
