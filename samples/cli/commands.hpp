@@ -9,6 +9,7 @@ namespace cli {
 void addRender(CLI::App& app);
 void addCompare(CLI::App& app);
 void addReference(CLI::App& app);
+void addSlab(CLI::App& app);
 void addSky(CLI::App& app);
 void addPhase(CLI::App& app);
 

@@ -27,6 +27,7 @@ int run(int argc, char** argv) {
   cli::addRender(app);
   cli::addCompare(app);
   cli::addReference(app);
+  cli::addSlab(app);
   cli::addSky(app);
   cli::addPhase(app);
   try {

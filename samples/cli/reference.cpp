@@ -40,9 +40,9 @@ struct ReferenceOptions {
 
 constexpr const char* REFERENCE_HELP = R"(
 Light scattered and reflected any number of times by air, fog, volumes and the planet's ground,
-which also light and shadow each other; opaque geometry hides what is behind it but neither scatters light
-nor throws shadows. Phase functions are the library's tables, also where the scene asks for the
-closed form, or exactly Rayleigh's and Henyey-Greenstein's; voxels are interpolated linearly.
+which also light and shadow each other; opaque geometry hides what is behind it but neither scatters
+light nor throws shadows. Phase functions are the library's tables, also where the scene asks for
+the closed form, or exactly Rayleigh's and Henyey-Greenstein's; voxels are interpolated linearly.
 
 Unbiased: --variance writes the squared standard error of each value. --order 1 is single scattering
 together with the sunlit ground; order 0 are the sun's disk and the opaque picture. --max-order 1

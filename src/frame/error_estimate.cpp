@@ -14,11 +14,13 @@ using Color = std::array<double, 3>;
 
 // Fitted constants: m = light left out over light computed, of which the error is m / (1 + m).
 struct Fit {
-  // Sky: m = skyScale depth^skyPower / sunlight^skySun, with the vertical optical depth over the
-  // point that lights the ray and the transmittance of the sun's light there.
-  double skyScale, skyPower, skySun;
-  // Fog: the same with (1 - g) depth along the ray.
-  double fogScale, fogPower, fogSun;
+  // Air, from vertical optical depth t of all of it and transmittance T of sunlight down to sea
+  // level: m = scatterScale t^scatterPower / T^scatterSun
+  //          + groundScale albedo cos(zenith) e^(-groundFade t / cos) / T.
+  double scatterScale, scatterPower, scatterSun, groundScale, groundFade;
+  // Fog, from reduced depth t = (1 - g) depth along the ray and vertically:
+  // m = fogScale t^fogPower / T^fogSun, and the same light of the ground.
+  double fogScale, fogPower, fogSun, fogGround;
   // Volumes: m = scale ((1 - g) depth)^power, depth the mean of those along the ray and along the
   // light; seen with the light (cosine 1) and against it (-1), between them in the logarithm.
   double forwardWith, forwardAgainst, forwardPower;
@@ -26,7 +28,13 @@ struct Fit {
   // Slabs: slabScale (optical depth of a slab)^slabPower + texelScale (texel / voxel)^texelPower.
   double slabScale, slabPower, texelScale, texelPower;
 };
-constexpr Fit FIT{1.2, 1.0, 0.5, 1.0, 1.0, 0.5, 2.0, 6.0, 1.0, 4.0, 8.0, 1.0, 0.1, 1.0, 0.02, 1.0};
+constexpr Fit FIT{
+    0.959, 0.691, 0.252, 1.229, 0.669,  // air
+    2.462, 0.638, 1.053, 0.011,         // fog
+    0.766, 7.73,  0.449,                // volumes, forward scattering
+    1.342, 4.603, 1.361,                // volumes, single scattering
+    0.1,   1.5,   0.002, 1.0,           // slabs and texels
+};
 
 double missing(double m) {
   return m / (1 + m);
@@ -138,6 +146,10 @@ ErrorParts estimateError(const ErrorInput& in) {
     return squares;
   }
   const PlanetFrame eye = planetFrameAt(in.planet, in.eye);
+  const double albedo = (static_cast<double>(in.planet.groundAlbedo[0]) +
+                         in.planet.groundAlbedo[1] + in.planet.groundAlbedo[2]) /
+                        3;
+  const double sunMu = glm::dot(in.toLight, eye.up);
   AirInput airOnly = in.air;
   airOnly.fogExtinction = 0;
   AirInput fogOnly = in.air;
@@ -146,16 +158,20 @@ ErrorParts estimateError(const ErrorInput& in) {
   Color fogDepth{};
   Color sunDepth{};
   double visible = 0;
-  const double sunMu = glm::dot(in.toLight, eye.up);
-  evalLightDepth(airOnly, eye.altitude, 1.0, 0, airDepth.data(), &visible);
-  evalLightDepth(fogOnly, eye.altitude, 1.0, 0, fogDepth.data(), &visible);
-  evalLightDepth(in.air, eye.altitude, std::max(sunMu, 0.0), 0, sunDepth.data(), &visible);
+  evalLightDepth(airOnly, 0, 1.0, 0, airDepth.data(), &visible);
+  evalLightDepth(fogOnly, std::min(eye.altitude, in.air.fogBaseAltitude), 1.0, 0, fogDepth.data(),
+                 &visible);
+  evalLightDepth(in.air, 0, std::max(sunMu, 0.0), 0, sunDepth.data(), &visible);
   Color skyError{};
   Color sunlight{};
+  Color fromGround{};
   for (size_t c = 0; c < 3; ++c) {
-    sunlight[c] = std::exp(-std::min(sunDepth[c], 30.0));
-    skyError[c] = missing(FIT.skyScale * std::pow(airDepth[c], FIT.skyPower) *
-                          std::pow(sunlight[c], -FIT.skySun));
+    sunDepth[c] = std::min(sunDepth[c], 30.0);
+    sunlight[c] = std::exp(-sunDepth[c]);
+    fromGround[c] = albedo * std::max(sunMu, 0.0) * std::exp((1 - FIT.groundFade) * sunDepth[c]);
+    skyError[c] = missing(FIT.scatterScale * std::pow(airDepth[c], FIT.scatterPower) *
+                              std::pow(sunlight[c], -FIT.scatterSun) +
+                          FIT.groundScale * fromGround[c]);
   }
 
   for (int y = 0; y < GRID; ++y) {
@@ -181,9 +197,11 @@ ErrorParts estimateError(const ErrorInput& in) {
         if (!(sum > 0)) {
           continue;
         }
-        const double reduced = std::min(fog.depth[c], 50.0) * in.fogGap;
+        const double reduced =
+            std::sqrt(std::min(fog.depth[c], 50.0) * std::min(fogDepth[c], 50.0)) * in.fogGap;
         const double fogError = missing(FIT.fogScale * std::pow(reduced, FIT.fogPower) *
-                                        std::pow(sunlight[c], -FIT.fogSun));
+                                            std::pow(sunlight[c], -FIT.fogSun) +
+                                        FIT.fogGround * fromGround[c]);
         squares[WLK_APPROXIMATION_SKY] +=
             free * air.radiance[c] / sum * skyError[c] * skyError[c] / 3;
         squares[WLK_APPROXIMATION_FOG] += free * fog.radiance[c] / sum * fogError * fogError / 3;

@@ -47,17 +47,6 @@ double flatColumn(double mu, double scaleHeight, double length) {
   return std::fabs(x) < 1e-12 ? length : -std::expm1(-x) / x * length;
 }
 
-// The part of the first `length` metres in which a uniform layer is.
-Climb::Interval within(const UniformLayer& layer, const Climb& ray, double length) {
-  if (ray.mu == 0) {
-    const bool inside = ray.altitude > layer.bottom && ray.altitude < layer.top;
-    return {0, inside ? length : 0};
-  }
-  const double a = (layer.bottom - ray.altitude) / ray.mu;
-  const double b = (layer.top - ray.altitude) / ray.mu;
-  return {std::max(std::min(a, b), 0.0), std::min(std::max(a, b), length)};
-}
-
 }  // namespace
 
 double ExponentialLayer::opticalDepth(const Climb& ray, size_t channel, double length) const {
@@ -116,14 +105,23 @@ double ExponentialLayer::collision(const Climb& ray, size_t channel, double leng
   return FAR;
 }
 
+Climb::Interval UniformLayer::within(const Climb& ray, double length) const {
+  if (ray.mu == 0) {
+    return {0, ray.altitude > bottom && ray.altitude < top ? length : 0};
+  }
+  const double a = (bottom - ray.altitude) / ray.mu;
+  const double b = (top - ray.altitude) / ray.mu;
+  return {std::max(std::min(a, b), 0.0), std::min(std::max(a, b), length)};
+}
+
 double UniformLayer::opticalDepth(const Climb& ray, size_t channel, double length) const {
-  const Climb::Interval part = within(*this, ray, length);
+  const Climb::Interval part = within(ray, length);
   return part.end > part.begin ? extinction[channel] * (part.end - part.begin) : 0.0;
 }
 
 double UniformLayer::collision(const Climb& ray, size_t channel, double length,
                                Random& random) const {
-  const Climb::Interval part = within(*this, ray, length);
+  const Climb::Interval part = within(ray, length);
   if (extinction[channel] <= 0 || part.end <= part.begin) {
     return FAR;
   }

@@ -35,6 +35,8 @@ struct UniformLayer {
   Rgb albedo{1, 1, 1};
   PhaseFunction phase = PhaseFunction::isotropic();
 
+  // The part of the first `length` metres that is inside.
+  Climb::Interval within(const Climb& ray, double length) const;
   double opticalDepth(const Climb& ray, size_t channel, double length) const;
   double collision(const Climb& ray, size_t channel, double length, Random& random) const;
 };

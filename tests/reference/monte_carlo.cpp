@@ -42,16 +42,17 @@ void check(const Scene& scene, const RenderOptions& options) {
 Sums sumBlock(const PathTracer& tracer, const EyeRay& ray, bool grey, uint64_t pixel,
               uint64_t begin, uint64_t end, uint64_t seed) {
   Sums sums;
-  std::vector<PathTracer::Path> branches;
   const PathTracer::FirstFlight first = tracer.firstFlight(ray);
+  std::vector<PathTracer::Path> branches;
   for (uint64_t sample = begin; sample < end; ++sample) {
     Rgb value{};
-    if (grey) {
-      value = tracer.sample(ray, first, 0, Random(seed, pixel, sample, 0), sums.events, branches);
-    } else {
-      for (size_t c = 0; c < 3; ++c) {
-        const Random random(seed, pixel, sample, c);
-        value[c] = tracer.sample(ray, first, c, random, sums.events, branches)[c];
+    for (size_t c = 0; c < (grey ? 1 : 3); ++c) {
+      const Random random(seed, pixel, sample, c);
+      const Rgb part = tracer.sample(ray, first, c, random, sums.events, branches);
+      if (grey) {
+        value = part;
+      } else {
+        value[c] = part[c];
       }
     }
     for (size_t c = 0; c < 3; ++c) {

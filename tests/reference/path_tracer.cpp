@@ -290,8 +290,8 @@ Rgb PathTracer::follow(Path path, const Collision* first, size_t channel, Random
   };
   for (;;) {
     const Collision next = first != nullptr ? *first
-                                            : collide(path.origin, path.direction, channel,
-                                                      path.length, path.onGround, random);
+                                            : collide(path.origin, path.direction, channel, FAR,
+                                                      path.onGround, random);
     first = nullptr;
     if (next.phase == nullptr && !next.ground) {
       if (path.order > 0 && counts(path.order)) {
@@ -309,7 +309,6 @@ Rgb PathTracer::follow(Path path, const Collision* first, size_t channel, Random
     }
     path.origin = vertex.position;
     path.onGround = next.ground;
-    path.length = FAR;
     path.order += 1;
     path.throughput *= next.ground ? scene_.groundAlbedo[channel] : next.albedo;
     events += 1;
@@ -363,40 +362,38 @@ PathTracer::FirstFlight PathTracer::firstFlight(const EyeRay& ray) const {
 Rgb PathTracer::sample(const EyeRay& ray, const FirstFlight& first, size_t channel, Random random,
                        uint64_t& events, std::vector<Path>& branches) const {
   Rgb sum{};
+  if (options_.lastOrder == 0) {
+    return sum;
+  }
+  const auto add = [&](const Rgb& part) {
+    for (size_t c = 0; c < 3; ++c) {
+      sum[c] += part[c];
+    }
+  };
   Path path;
   path.origin = ray.origin;
   path.direction = ray.direction;
-  path.length = ray.length;
   branches.clear();
-  const auto finish = [&](const Path& start, const Collision* collision) {
-    const auto add = [&](const Rgb& part) {
-      for (size_t c = 0; c < 3; ++c) {
-        sum[c] += part[c];
-      }
-    };
-    add(follow(start, collision, channel, random, events, branches));
-    while (!branches.empty()) {
-      const Path branch = branches.back();
-      branches.pop_back();
-      add(follow(branch, nullptr, channel, random, events, branches));
-    }
-  };
-  const double p = first.collides[channel];
-  for (int i = 0; i < TRIES && p > 0; ++i) {
-    const double length = std::min(first.ground, ray.length);
-    const Collision collision = collide(ray.origin, ray.direction, channel, length, true, random);
-    if (collision.phase != nullptr) {
-      path.weight = p / -std::expm1(TRIES * std::log1p(-p));
-      finish(path, &collision);
+  const double collides = first.collides[channel];
+  for (int i = 0; i < TRIES && collides > 0; ++i) {
+    const Collision hit = collide(ray.origin, ray.direction, channel, ray.length, false, random);
+    if (hit.phase != nullptr) {
+      path.weight = collides / -std::expm1(TRIES * std::log1p(-collides));
+      add(follow(path, &hit, channel, random, events, branches));
       break;
     }
   }
-  if (first.ground < FAR && p < 1) {
-    Collision collision;
-    collision.distance = first.ground;
-    collision.ground = true;
-    path.weight = 1 - p;
-    finish(path, &collision);
+  if (first.ground < FAR && collides < 1) {
+    Collision hit;
+    hit.distance = first.ground;
+    hit.ground = true;
+    path.weight = 1 - collides;
+    add(follow(path, &hit, channel, random, events, branches));
+  }
+  while (!branches.empty()) {
+    path = branches.back();
+    branches.pop_back();
+    add(follow(path, nullptr, channel, random, events, branches));
   }
   return sum;
 }

@@ -15,7 +15,6 @@ class PathTracer {
   struct Path {
     Point origin;
     Point direction;
-    double length = FAR;    // to something opaque
     double throughput = 1;  // albedos, roulette
     double share = 1;       // of what the path stands for, after branching
     double weight = 1;      // of the path's first stretch
