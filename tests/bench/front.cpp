@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// welkin_front: error against time, in ms, of every method in every case; writes and checks the
+// contract of the quality levels.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "bench/front_contract.hpp"
+#include "bench/front_report.hpp"
+#include "common/error.hpp"
+
+namespace bench {
+namespace {
+
+struct Options {
+  std::string cases;
+  std::vector<std::string> names;
+  std::string references;
+  std::string json;
+  std::string csv;
+  std::string check;
+  std::string writeContract;
+  std::string commit;
+  std::vector<std::string> pack;
+  size_t rounds = 0;
+  bool quick = false;
+  bool levelsOnly = false;
+  bool keepConverged = false;
+  bool listReferences = false;
+};
+
+// Bits of the mantissas of what is written next to the tests. References carry noise of 0.4 % and
+// more and are rounded by 0.05 %; variances are themselves only known to several per cent; the
+// finest level is some 1e-3 away from its limit, which is rounded by 6e-5.
+constexpr int REFERENCE_BITS = 10;
+constexpr int VARIANCE_BITS = 3;
+constexpr int CONVERGED_BITS = 13;
+
+std::vector<Case> chosenCases(const Options& options) {
+  std::vector<Case> cases = readCases(options.cases);
+  if (options.names.empty()) {
+    return cases;
+  }
+  std::vector<Case> chosen;
+  for (const std::string& name : options.names) {
+    const auto found =
+        std::find_if(cases.begin(), cases.end(), [&](const Case& one) { return one.name == name; });
+    if (found == cases.end()) {
+      throw host::InputError("command line", "--case", "no case " + name + " in " + options.cases);
+    }
+    chosen.push_back(*found);
+  }
+  return chosen;
+}
+
+// One line for each reference, fields separated by tabs, for tools/bench.
+void listReferences(const Options& options) {
+  for (const Case& one : chosenCases(options)) {
+    for (const char* kind : {"all", "single"}) {
+      const bool all = kind == std::string("all");
+      std::printf("%s\t%s\t%u", one.name.c_str(), kind, all ? one.samplesAll : one.samplesSingle);
+      std::printf("\t%s", one.scene.c_str());
+      for (const std::string& assignment : assignmentsOf(one)) {
+        std::printf("\t%s", assignment.c_str());
+      }
+      std::printf("\n");
+    }
+  }
+}
+
+void packReferences(const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    const bool variance = file.find(".variance.") != std::string::npos;
+    writePacked(file, host::readExr(file), variance ? VARIANCE_BITS : REFERENCE_BITS);
+  }
+}
+
+void writeContract(const Options& options) {
+  Ordered contract = {{"schema", 1}, {"rows", Ordered::array()}};
+  for (const Case& one : chosenCases(options)) {
+    std::fprintf(stderr, "%s\n", one.name.c_str());
+    if (!options.keepConverged && !sceneOf(one, false).volumes.empty()) {
+      writePacked(referenceFile(options.references, one, "converged"), convergedPicture(one),
+                  CONVERGED_BITS);
+    }
+    for (Ordered& row : measureLevels(one, readReferences(options.references, one))) {
+      contract["rows"].push_back(std::move(row));
+    }
+  }
+  writeJson(options.writeContract, contract);
+}
+
+// Number of figures that are worse than the contract.
+size_t checkContract(const Options& options) {
+  const Ordered contract = readContract(options.check);
+  size_t worse = 0;
+  for (const Case& one : chosenCases(options)) {
+    for (const Ordered& row : measureLevels(one, readReferences(options.references, one))) {
+      for (const std::string& text : violations(row, findRow(contract, row))) {
+        std::printf("%s\n", text.c_str());
+        ++worse;
+      }
+    }
+  }
+  return worse;
+}
+
+void measure(const Options& options) {
+  constexpr size_t ROUNDS = 15;
+  constexpr size_t QUICK_ROUNDS = 5;
+  StudyOptions study;
+  study.rounds = options.rounds != 0 ? options.rounds : (options.quick ? QUICK_ROUNDS : ROUNDS);
+  study.quick = options.quick;
+  study.levelsOnly = options.levelsOnly;
+  study.referenceFolder = options.references;
+  Ordered report = reportHead(options.commit, study.rounds, options.quick);
+  for (const Case& one : chosenCases(options)) {
+    const Study result = studyCase(one, study, [&](const std::string& step) {
+      std::fprintf(stderr, "%s: %s\n", one.name.c_str(), step.c_str());
+    });
+    report["device"] = result.device;
+    std::printf("%-16s %-18s %9s %8s %8s %8s %12s %10s %10s %10s\n", one.name.c_str(), "method",
+                "ms", "ratio", "low", "high", "invocations", "truth", "single", "converged");
+    for (const Row& row : result.rows) {
+      const auto figure = [](const Ordered& errors) {
+        return errors.is_null() ? NAN : errors.at("rmseOverMean").get<double>();
+      };
+      std::printf("%-16s %-18s %9.3f %8.4f %8.4f %8.4f %12llu %10.3g %10.3g %10.3g\n", "",
+                  row.method.name.c_str(), row.timing.wall, row.timing.ratio, row.timing.ratioLow,
+                  row.timing.ratioHigh, static_cast<unsigned long long>(row.counts.invocations),
+                  figure(row.truth), figure(row.single), figure(row.converged));
+      report["rows"].push_back(reportRow(one, row));
+    }
+    std::fflush(stdout);
+    // After every case: a run that is cut short leaves what it has.
+    if (!options.json.empty()) {
+      writeJson(options.json, report);
+    }
+    if (!options.csv.empty()) {
+      writeCsv(options.csv, report["rows"]);
+    }
+  }
+}
+
+int run(const Options& options) {
+  if (!options.pack.empty()) {
+    packReferences(options.pack);
+  } else if (options.listReferences) {
+    listReferences(options);
+  } else if (!options.writeContract.empty()) {
+    writeContract(options);
+  } else if (!options.check.empty()) {
+    return checkContract(options) == 0 ? 0 : 1;
+  } else {
+    measure(options);
+  }
+  return 0;
+}
+
+void declare(CLI::App& app, Options& options) {
+  app.add_option("--cases", options.cases, "List of cases (JSON)")->required();
+  app.add_option("--case", options.names, "Only this case; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--rounds", options.rounds, "Interleaved rounds (default 15; quick 5)");
+  app.add_flag("--quick", options.quick, "Fewer methods and rounds");
+  app.add_flag("--levels-only", options.levelsOnly, "The four quality levels only");
+  app.add_option("--out", options.json, "Write the results to this file (JSON)");
+  app.add_option("--csv", options.csv, "Write the rows to this file (CSV)");
+  app.add_option("--reference-dir", options.references, "Folder of the references");
+  app.add_option("--commit", options.commit, "Name of the source's state, for the results");
+  app.add_option("--check", options.check, "Compare the levels with this contract, then end");
+  app.add_option("--write-contract", options.writeContract,
+                 "Write the contract and the converged pictures, then end");
+  app.add_flag("--keep-converged", options.keepConverged,
+               "With --write-contract: the converged pictures stay as they are");
+  app.add_flag("--list-references", options.listReferences,
+               "Print name, kind, paths per pixel, scene and assignments, then end");
+  app.add_option("--pack", options.pack, "Round the mantissas of these references, then end");
+}
+
+}  // namespace
+}  // namespace bench
+
+int main(int argc, char** argv) {
+  CLI::App app("Error against time of Welkin's methods");
+  bench::Options options;
+  bench::declare(app, options);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return bench::run(options);
+  } catch (const host::InputError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}

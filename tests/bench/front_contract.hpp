@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What each quality level promises in each case: errors (no unit) and counts of one frame.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/front_errors.hpp"
+#include "bench/front_world.hpp"
+
+namespace bench {
+
+/// Errors may grow by this factor over the contract: a figure of another machine's floating-point
+/// rounding stays within 1 %, the rest is room for changes that trade a little error for time.
+constexpr double ERROR_TOLERANCE = 1.10;
+/// Counts are exact; this is for a volume's cover that moves by a pixel.
+constexpr double COUNT_TOLERANCE = 1.02;
+
+/// Rows {case, level, counts, errors} of a case's levels, rendered once each.
+std::vector<Ordered> measureLevels(const Case& one, const References& references);
+
+/// The picture that the levels converge to.
+host::Image convergedPicture(const Case& one);
+
+/// One sentence per figure of `measured` that is worse than `contract`, naming case, level and
+/// figure. `contract` null: there is none for this row.
+std::vector<std::string> violations(const Ordered& measured, const Ordered& contract);
+
+/// Reads what welkin_front --write-contract wrote. Throws InputError.
+Ordered readContract(const std::string& file);
+
+/// The contract's row for the case and level of `measured`, or null.
+Ordered findRow(const Ordered& contract, const Ordered& measured);
+
+}  // namespace bench

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "bench/front_study.hpp"
+
+#include <array>
+#include <map>
+#include <memory>
+
+namespace bench {
+namespace {
+
+// Frames before the measured ones: the first compiles, and every slot of the frames in flight
+// (3) is recorded once.
+constexpr size_t WARM_UPS = 3;
+
+// A case's contexts: with the tables of the phase functions, and, if asked for, the closed forms.
+class Worlds {
+ public:
+  explicit Worlds(const Case& one) : case_(one) { opaque_ = of(false).makeOpaque(); }
+  World& of(bool analytic) {
+    std::unique_ptr<World>& world = worlds_.at(analytic ? 1 : 0);
+    if (!world) {
+      world = std::make_unique<World>(case_, analytic);
+    }
+    return *world;
+  }
+  // One background for all methods: its light does not depend on them.
+  [[nodiscard]] const host::RasterResult& opaque() const { return opaque_; }
+
+ private:
+  const Case& case_;
+  std::array<std::unique_ptr<World>, 2> worlds_;
+  host::RasterResult opaque_;
+};
+
+struct Shot {
+  host::Image picture;
+  FrameCounts counts;
+};
+
+// One frame of a view that is there alone, so that the memory counted is its own.
+Shot shoot(Worlds& worlds, const WlkQuality& quality, bool analytic) {
+  World& world = worlds.of(analytic);
+  const WlkView view = world.addView(quality);
+  world.prepare();
+  world.render(view, worlds.opaque());
+  Shot shot{world.read(view), world.counts(view)};
+  world.removeView(view);
+  return shot;
+}
+
+// Pictures that methods converge to, made when first asked for.
+class Limits {
+ public:
+  Limits(Worlds& worlds, const StudyOptions& options, const Reference& committed)
+      : worlds_(worlds), options_(options), committed_(committed) {}
+
+  const Reference& of(const Settings& settings) {
+    const bool usual = settings.scattering == WLK_SCATTERING_FORWARD && !settings.analytic;
+    if (options_.quick || options_.levelsOnly) {
+      return usual ? committed_ : none_;
+    }
+    Reference& limit = limits_[{settings.scattering, settings.analytic}];
+    if (!limit.picture) {
+      const Settings fine = convergedSettings(settings);
+      limit.picture = shoot(worlds_, explicitQuality(fine), fine.analytic).picture;
+    }
+    return limit;
+  }
+
+ private:
+  Worlds& worlds_;
+  const StudyOptions& options_;
+  const Reference& committed_;
+  const Reference none_;
+  std::map<std::pair<uint32_t, bool>, Reference> limits_;
+};
+
+}  // namespace
+
+Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell) {
+  tell("scene");
+  Worlds worlds(one);
+  const bool hasVolumes = !worlds.of(false).scene().volumes.empty();
+  const References references = readReferences(options.referenceFolder, one);
+  Limits limits(worlds, options, references.converged);
+  const std::vector<Method> methods =
+      options.levelsOnly ? levelMethods() : methodsFor(one, hasVolumes, options.quick);
+
+  Study study;
+  const WlkCapabilities device = worlds.of(false).capabilities();
+  study.device = {{"name", std::string(device.deviceName)},
+                  {"driver", "Vulkan " + std::to_string(device.vulkanVersion >> 22 & 0x7fu) + "." +
+                                 std::to_string(device.vulkanVersion >> 12 & 0x3ffu) + "." +
+                                 std::to_string(device.vulkanVersion & 0xfffu)}};
+  size_t anchor = 0;
+  for (const Method& method : methods) {
+    tell("errors of " + method.name);
+    const Shot shot = shoot(worlds, qualityOf(method), method.settings.analytic);
+    // Air and fog scatter once in every method.
+    const bool single = !hasVolumes || method.settings.scattering == WLK_SCATTERING_SINGLE;
+    Row row{method, shot.counts, {}, errorsOf(shot.picture, references.all, one), nullptr, nullptr};
+    if (single) {
+      row.single = errorsOf(shot.picture, references.single, one);
+    }
+    if (hasVolumes) {
+      row.converged = errorsOf(shot.picture, limits.of(method.settings), one);
+    }
+    anchor = method.name == ANCHOR ? study.rows.size() : anchor;
+    study.rows.push_back(std::move(row));
+  }
+
+  tell("times");
+  std::vector<WlkView> views;
+  std::vector<RenderFrame> frames;
+  for (const Method& method : methods) {
+    World& world = worlds.of(method.settings.analytic);
+    const WlkView view = world.addView(qualityOf(method));
+    views.push_back(view);
+    frames.emplace_back([&world, &worlds, view] {
+      world.render(view, worlds.opaque());
+      return 1e-6 * static_cast<double>(world.counts(view).gpuTime_ns);
+    });
+  }
+  for (const Method& method : methods) {
+    worlds.of(method.settings.analytic).prepare();
+  }
+  const std::vector<Timing> timings = interleave(frames, anchor, WARM_UPS, options.rounds);
+  for (size_t i = 0; i < methods.size(); ++i) {
+    Row& row = study.rows[i];
+    FrameCounts steady = worlds.of(methods[i].settings.analytic).counts(views[i]);
+    steady.deviceMemory = row.counts.deviceMemory;  // of this view alone
+    steady.hostMemory = row.counts.hostMemory;
+    row.counts = steady;
+    row.timing = timings[i];
+  }
+  return study;
+}
+
+}  // namespace bench

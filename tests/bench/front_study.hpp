@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// One case measured: pictures, errors, counts and interleaved times (ms) of every method.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "bench/front_errors.hpp"
+#include "bench/front_methods.hpp"
+#include "bench/front_timing.hpp"
+#include "bench/front_world.hpp"
+
+namespace bench {
+
+struct StudyOptions {
+  size_t rounds = 15;
+  /// Fewer methods, and only the converged pictures that lie in the folder.
+  bool quick = false;
+  bool levelsOnly = false;
+  std::string referenceFolder;
+};
+
+struct Row {
+  Method method;
+  FrameCounts counts;
+  Timing timing;
+  Ordered truth;
+  Ordered single;
+  Ordered converged;
+};
+
+struct Study {
+  std::vector<Row> rows;
+  Ordered device;
+};
+
+/// Told before each slow step.
+using Tell = std::function<void(const std::string&)>;
+
+Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell);
+
+}  // namespace bench

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Times of several methods against one of them, interleaved so that what else the machine does hits
+// all alike. ms.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace bench {
+
+struct Timing {
+  /// Median over the rounds, and the median distance from it. ms.
+  double wall = 0.0;
+  double wallDeviation = 0.0;
+  double cpu = 0.0;
+  double gpu = 0.0;
+  /// Median over the rounds of time / anchor's time in that round; low and high: order statistics
+  /// that hold the median with 95 % confidence (all rounds if there are fewer than six).
+  double ratio = 1.0;
+  double ratioLow = 1.0;
+  double ratioHigh = 1.0;
+  /// The same of process CPU times, which the machine's other work disturbs less.
+  double cpuRatio = 1.0;
+};
+
+/// Renders one frame and returns its GPU time in ms.
+using RenderFrame = std::function<double()>;
+
+/// Calls every frame `warmUps` times, then once per round, in an order that turns by one place each
+/// round; a frame too short to time alone is repeated and its mean taken.
+std::vector<Timing> interleave(const std::vector<RenderFrame>& frames, size_t anchor,
+                               size_t warmUps, size_t rounds);
+
+double medianOf(std::vector<double> values);
+
+}  // namespace bench

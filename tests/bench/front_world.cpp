@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "bench/front_world.hpp"
+
+namespace bench {
+
+World::World(const Case& one, bool analytic) : scene_(sceneOf(one, analytic)) {
+  context_ = host::makeHeadlessContext(false, "", log_);
+  host::applyWorld(context_.get(), scene_);
+  host::applyVolumes(context_.get(), scene_, [](const std::string&) {});
+}
+
+WlkView World::addView(const WlkQuality& quality) {
+  host::Scene scene = scene_;
+  scene.quality = quality;
+  return host::applyView(context_.get(), scene);
+}
+
+void World::removeView(WlkView view) {
+  host::check(wlkDestroyView(context_.get(), view), "wlkDestroyView");
+}
+
+void World::prepare() {
+  host::check(wlkPrepare(context_.get()), scene_.file, "");
+}
+
+void World::render(WlkView view, const host::RasterResult& opaque) {
+  auto targets = host::make<WlkHeadlessTargets>();
+  targets.color = opaque.color.rgba.empty() ? nullptr : opaque.color.rgba.data();
+  targets.depth = opaque.depth.values.empty() ? nullptr : opaque.depth.values.data();
+  host::check(wlkRenderHeadless(context_.get(), view, &targets), scene_.file, "");
+}
+
+host::Image World::read(WlkView view) const {
+  host::Image image{scene_.view.width, scene_.view.height, {}};
+  image.rgba.resize(image.pixelCount() * 4);
+  auto data = host::make<WlkImageData>();
+  data.data = image.rgba.data();
+  data.dataSize = image.rgba.size() * sizeof(float);
+  host::check(wlkReadback(context_.get(), view, &data), "wlkReadback");
+  return image;
+}
+
+FrameCounts World::counts(WlkView view) const {
+  auto stats = host::make<WlkFrameStats>();
+  uint32_t count = 0;
+  host::check(wlkGetFrameStats(context_.get(), view, &stats, &count, nullptr), "wlkGetFrameStats");
+  std::vector<WlkPassStats> passes(count);
+  host::check(wlkGetFrameStats(context_.get(), view, &stats, &count, passes.data()),
+              "wlkGetFrameStats");
+  FrameCounts counts;
+  counts.dispatches = stats.dispatches;
+  counts.draws = stats.draws;
+  counts.barriers = stats.barriers;
+  counts.deviceMemory = stats.deviceMemory;
+  counts.hostMemory = stats.hostMemory;
+  counts.nonFinite = stats.nonFinitePixels;
+  for (const WlkPassStats& pass : passes) {
+    counts.invocations += pass.invocations;
+    counts.gpuTime_ns += pass.gpuTime_ns;
+    if (pass.pass != WLK_PASS_COMPOSITE) {
+      counts.volumeInvocations += pass.invocations;
+    }
+  }
+  return counts;
+}
+
+host::RasterResult World::makeOpaque() const {
+  return host::makeOpaque(context_.get(), scene_, [](const std::string&) {});
+}
+
+WlkCapabilities World::capabilities() const {
+  auto capabilities = host::make<WlkCapabilities>();
+  host::check(wlkGetCapabilities(context_.get(), &capabilities), "wlkGetCapabilities");
+  return capabilities;
+}
+
+WlkErrorEstimate World::estimate(WlkView view) const {
+  auto estimate = host::make<WlkErrorEstimate>();
+  host::check(wlkGetErrorEstimate(context_.get(), view, &estimate), "wlkGetErrorEstimate");
+  return estimate;
+}
+
+}  // namespace bench
