@@ -26,7 +26,7 @@ struct SlabOptions {
   std::string in;
   std::string out;
   std::string method = "ordinates";
-  int nodes = 32;
+  int nodes = 48;
   uint64_t samples = 100'000;
   uint64_t seed = 1;
   std::string scene;
@@ -335,7 +335,7 @@ void addSlab(CLI::App& app) {
   command->add_option("--in", options->in, "Slabs and directions (CSV)")->required();
   command->add_option("--out", options->out, "Results (CSV)")->required();
   command->add_option("--method", options->method, "ordinates (default) or montecarlo");
-  command->add_option("--nodes", options->nodes, "Directions per hemisphere; default 32");
+  command->add_option("--nodes", options->nodes, "Directions per hemisphere; default 48");
   command->add_option("--samples", options->samples, "Paths per value; default 100000");
   command->add_option("--seed", options->seed, "Of the random numbers; default 1");
   command->add_option("--particle", options->particle, "As in welkin phase");

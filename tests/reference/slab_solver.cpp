@@ -55,6 +55,11 @@ double singlePath(double tau, double mu0, double mu, double depth) {
   return q * depth * decayDifference(q * depth, p * depth);
 }
 
+// a_l of chi_l = a_l + (-1)^l b_l: the moments without what the phase function has behind.
+double forwardMoment(const Vector& chi, std::size_t l) {
+  return (chi[l - 1] + 2 * chi[l] + chi[l + 1]) / 4;
+}
+
 constexpr std::array GRAZING{0.003, 0.04};
 
 void addNodes(double begin, double end, int count, SlabNodes& nodes) {
@@ -197,15 +202,40 @@ struct SlabSolver::Modes {
     }
     return legendreSum(k, y);
   }
+
+  // Features of the phase function behind, such as a glory, that are finer than the series: TMS
+  // shows them as the beam would, but light was also turned within the peak on its way in and out,
+  // which widens them. With chi_l = a_l + (-1)^l b_l, moments b_l decay with the depth s as
+  // e^(-(1 - albedo a_l) s) instead of e^(-(1 - albedo peak) s).
+  double backwardPeak(double tau, double mu0, const SlabView& view, double depth, double y) const {
+    if (peak == 0) {
+      return 0;
+    }
+    const Vector& chi = phase.moments;
+    const auto path = [&](double loss) {
+      return singlePath(loss * tau, mu0, view.mu, loss * depth) / loss;
+    };
+    const double plain = path(depthScale());
+    Vector k(chi.size());
+    for (std::size_t l = series.size(); l + 1 < chi.size(); ++l) {
+      const double forward = forwardMoment(chi, l);
+      k[l] = albedo * (chi[l] - forward) * (path(1 - albedo * forward) - plain);
+    }
+    return legendreSum(k, y);
+  }
 };
 
 SlabSolver::SlabSolver(SlabPhase phase, double albedo, int nodes)
     : modes_(std::make_unique<Modes>()) {
   Modes& m = *modes_;
-  const auto terms = static_cast<std::size_t>(2 * nodes);
+  // No more moments than nodes: the rule must integrate products of any two of them, or light
+  // turned often comes out wrong by up to 10 % beside the beam (20 um droplets, 64 to 128 nodes
+  // with twice as many moments). What is left out goes to delta-M.
+  const auto terms = static_cast<std::size_t>(nodes);
   m.phase = std::move(phase);
   m.albedo = albedo;
-  m.peak = m.phase.moments.size() > terms ? std::max(m.phase.moments[terms], 0.0) : 0.0;
+  m.peak = m.phase.moments.size() > terms + 1 ? std::max(forwardMoment(m.phase.moments, terms), 0.0)
+                                              : 0.0;
   m.scaled = albedo == 1 ? 1 : albedo * (1 - m.peak) / m.depthScale();
   // In thin slabs radiance bends at mu = tau, which a rule over [0, 1] does not resolve: 4e-4 of
   // the radiance of tau 1e-3. Panels of their own cure it, and the last still integrates every
@@ -241,6 +271,8 @@ std::vector<SlabRadiance> SlabSolver::radiance(double tau, double mu0,
     one.total = source / scale * singlePath(scale * tau, mu0, view.mu, scale * depth);
     if (view.mu < 0) {
       one.total += modes.forwardPeak(depth, mu0, y);
+    } else {
+      one.total += modes.backwardPeak(tau, mu0, view, depth, y);
     }
     result.push_back(one);
   }

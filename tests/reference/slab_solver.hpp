@@ -57,11 +57,12 @@ struct SlabFlux {
 
 class SlabSolver {
  public:
-  // `nodes` directions per hemisphere (double Gauss). Phase functions with more than 2 nodes
-  // moments lose their forward peak to delta-M (Wiscombe 1977); order 1 is exact then too
-  // (Nakajima and Tanaka 1988, TMS), and transmitted light has the peak's own multiple scattering
-  // in the small-angle limit (their IMS, to all orders).
-  SlabSolver(SlabPhase phase, double albedo, int nodes = 32);
+  // `nodes` directions per hemisphere (double Gauss, and 14 more near the horizon) and as many
+  // moments. Phase functions with more lose their forward peak to delta-M (Wiscombe 1977); order 1
+  // is exact then too (Nakajima and Tanaka 1988, TMS), and the peak's own multiple scattering is
+  // added in the small-angle limit (their IMS, to all orders, and for light that comes back). Error
+  // for droplets of 20 um with 16 nodes 2e-3, with 64 1e-3, in the beam's direction too.
+  SlabSolver(SlabPhase phase, double albedo, int nodes = 48);
   ~SlabSolver();
   SlabSolver(SlabSolver&&) noexcept;
 

@@ -55,7 +55,7 @@ TEST(SlabBenchmark, VanDeHulstsIsotropicSlabToFiveDigits) {
 TEST(SlabBenchmark, VanDeHulstsHenyeyGreensteinSlabToFiveDigits) {
   // Straight down 2.40271, printed 2.40270: a unit more. All others are right to the last digit.
   constexpr double PRINTED_35 = PRINTED + 1;
-  const SlabSolver solver(henyeyGreensteinSlabPhase(0.75), 0.9);
+  const SlabSolver solver(henyeyGreensteinSlabPhase(0.75), 0.9, 64);
   const SlabFlux top = solver.flux(2, 1, 0);
   const SlabFlux bottom = solver.flux(2, 1, 2);
   EXPECT_NEAR(top.up, VAN_DE_HULST_35_REFLECTANCE, PRINTED * 1e-5);
@@ -86,9 +86,9 @@ std::vector<GarciaSiewertProblem> garciaSiewertProblems() {
   const std::vector<double> mie = momentsOf(MIE_MOMENTS);
   const std::vector<double> haze = momentsOf(HAZE_L_MOMENTS);
   return {{"Mie", &GARCIA_SIEWERT_MIE, mie, 0.95, 0.5, 0, true, 24},
-          {"Haze L, zenith", &GARCIA_SIEWERT_HAZE_NORMAL, haze, 1, 1, 0, false, 42},
-          {"Haze L, 0", &GARCIA_SIEWERT_HAZE_0, haze, 0.9, 0.5, 0, false, 42},
-          {"Haze L, 90", &GARCIA_SIEWERT_HAZE_90, haze, 0.9, 0.5, PI / 2, false, 42}};
+          {"Haze L, zenith", &GARCIA_SIEWERT_HAZE_NORMAL, haze, 1, 1, 0, false, 84},
+          {"Haze L, 0", &GARCIA_SIEWERT_HAZE_0, haze, 0.9, 0.5, 0, false, 84},
+          {"Haze L, 90", &GARCIA_SIEWERT_HAZE_90, haze, 0.9, 0.5, PI / 2, false, 84}};
 }
 
 double garciaSiewertEntry(const GarciaSiewertTable& table, size_t row, size_t column) {
@@ -158,7 +158,7 @@ DisortError disortErrorOf(std::string_view name) {
 TEST(SlabBenchmark, DisortsCheckDataWithinTheirOwnErrors) {
   for (const DisortCase& one : disortCases()) {
     const bool peaked = one.phase == DisortPhase::CLOUD_C1;
-    const SlabSolver solver(phaseOf(one.phase), one.albedo, peaked ? 150 : 48);
+    const SlabSolver solver(phaseOf(one.phase), one.albedo, peaked ? 200 : 84);
     const bool beam = one.irradiance > 0;
     const double irradiance = beam ? one.irradiance : 1;
     double worstFlux = 0;
@@ -198,7 +198,7 @@ TEST(SlabBenchmark, DisortsCheckDataWithinTheirOwnErrors) {
 
 TEST(SlabBenchmark, GarciaAndSiewertDecideAgainstDisortAtTheZenith) {
   // Haze L, albedo 1, sun and view at the zenith: the same entry in both.
-  const SlabSolver solver(momentSlabPhase(momentsOf(HAZE_L_MOMENTS)), 1, 42);
+  const SlabSolver solver(momentSlabPhase(momentsOf(HAZE_L_MOMENTS)), 1, 84);
   const double value = PI * solver.radiance(1, 1, {1, 0}).total;
   const auto& cases = disortCases();
   const auto row = std::find_if(cases.begin(), cases.end(),
@@ -230,7 +230,7 @@ TEST(SlabSolver, LosesNoEnergyWithoutAbsorption) {
 }
 
 TEST(SlabSolver, IsReciprocal) {
-  constexpr double ROUNDING = 1e-11;
+  constexpr double ROUNDING = 2e-10;  // the peak's corrections are differences of close numbers
   constexpr double FLOOR = 1e-15;  // differences of numbers near 1: what passes tau 50 is 1e-9
   for (const double albedo : {0.7, 1.0}) {
     const SlabSolver solver(henyeyGreensteinSlabPhase(0.8), albedo);
@@ -331,11 +331,11 @@ TEST(SlabSolver, SeesALambertianSurfaceThroughAnAbsorber) {
 }
 
 TEST(SlabSolver, DeltaMAndItsCorrectionsFollowAllMoments) {
-  const SlabPhase phase = henyeyGreensteinSlabPhase(0.9);
-  const SlabSolver exact(phase, 1, 80);  // chi_160 = 5e-8
-  const SlabSolver fewer(phase, 1, 16);  // chi_32 = 0.03
-  // Measured 3e-4; without the small-angle correction 5e-3 along the beam.
-  constexpr double TOLERANCE = 5e-4;
+  const SlabPhase phase = henyeyGreensteinSlabPhase(0.85);
+  const SlabSolver exact(phase, 1, 96);  // chi_96 = 2e-7
+  const SlabSolver fewer(phase, 1, 20);  // chi_20 = 0.04
+  // Measured 7e-4; without the small-angle correction 6e-3 along the beam.
+  constexpr double TOLERANCE = 1e-3;
   for (const double tau : {0.5, 5.0}) {
     for (const SlabView& view : {SlabView{0.3, 0.5}, SlabView{0.9, 2}, SlabView{-0.9, 2},
                                  SlabView{-0.5, 0.3}, SlabView{-0.6, 0}, SlabView{-0.65, 0.02}}) {
@@ -344,6 +344,29 @@ TEST(SlabSolver, DeltaMAndItsCorrectionsFollowAllMoments) {
           << tau << ' ' << view.mu << ' ' << view.phi;
     }
     EXPECT_NEAR(fewer.flux(tau, 0.6, 0).up / exact.flux(tau, 0.6, 0).up, 1, 1e-4);
+  }
+}
+
+// A glory, narrower than the series, is seen through light that was turned a little in the peak.
+TEST(SlabSolver, DeltaMWidensWhatIsNarrowBehind) {
+  const SlabPhase front = henyeyGreensteinSlabPhase(0.85);
+  const SlabPhase behind = henyeyGreensteinSlabPhase(-0.88);
+  SlabPhase phase;
+  for (size_t l = 0; l < 130; ++l) {
+    phase.moments.push_back(0.95 * front.moments[l] + 0.05 * behind.moments[l]);
+  }
+  phase.value = [front, behind](double y) {
+    return 0.95 * front.value(y) + 0.05 * behind.value(y);
+  };
+  const SlabSolver exact(phase, 1, 128);  // chi_128 = 4e-9
+  const SlabSolver fewer(phase, 1, 20);
+  constexpr double TOLERANCE = 2e-4;  // measured 8e-5; without the correction 4e-3
+  for (const double tau : {0.5, 5.0}) {
+    for (const SlabView& view : {SlabView{0.6, PI}, SlabView{0.65, PI}, SlabView{0.3, 2.5}}) {
+      const double truth = exact.radiance(tau, 0.6, view).total;
+      EXPECT_NEAR(fewer.radiance(tau, 0.6, view).total / truth, 1, TOLERANCE)
+          << tau << ' ' << view.mu;
+    }
   }
 }
 
