@@ -231,7 +231,7 @@ TEST(SlabSolver, LosesNoEnergyWithoutAbsorption) {
 
 TEST(SlabSolver, IsReciprocal) {
   constexpr double ROUNDING = 2e-10;  // the peak's corrections are differences of close numbers
-  constexpr double FLOOR = 1e-15;  // differences of numbers near 1: what passes tau 50 is 1e-9
+  constexpr double FLOOR = 1e-15;     // differences of numbers near 1: what passes tau 50 is 1e-9
   for (const double albedo : {0.7, 1.0}) {
     const SlabSolver solver(henyeyGreensteinSlabPhase(0.8), albedo);
     for (const double tau : {0.01, 2.0, 50.0}) {
