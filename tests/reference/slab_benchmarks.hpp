@@ -31,39 +31,39 @@ struct VanDeHulstValue {
   double mu;  // mu0 in Table 12, |mu| in Table 35
   double value;
 };
-constexpr std::array<VanDeHulstValue, 6> VAN_DE_HULST_12_REFLECTED{{{1.0, 0.28616},
-                                                                    {0.9, 0.30277},
-                                                                    {0.7, 0.34188},
-                                                                    {0.5, 0.39102},
-                                                                    {0.3, 0.45353},
-                                                                    {0.1, 0.53214}}};
-constexpr std::array<VanDeHulstValue, 5> VAN_DE_HULST_12_TRANSMITTED{
+inline constexpr std::array<VanDeHulstValue, 6> VAN_DE_HULST_12_REFLECTED{{{1.0, 0.28616},
+                                                                           {0.9, 0.30277},
+                                                                           {0.7, 0.34188},
+                                                                           {0.5, 0.39102},
+                                                                           {0.3, 0.45353},
+                                                                           {0.1, 0.53214}}};
+inline constexpr std::array<VanDeHulstValue, 5> VAN_DE_HULST_12_TRANSMITTED{
     {{1.0, 0.14864}, {0.9, 0.14731}, {0.7, 0.13963}, {0.3, 0.09425}, {0.1, 0.06601}}};
 
 // [VH80] Table 35: g 0.75, albedo 0.9, tau 2, sun at the zenith: pi I.
-constexpr std::array<VanDeHulstValue, 7> VAN_DE_HULST_35_REFLECTED{{{0, 0.10641},
-                                                                    {0.1, 0.13304},
-                                                                    {0.3, 0.13856},
-                                                                    {0.5, 0.11956},
-                                                                    {0.7, 0.09411},
-                                                                    {0.9, 0.07132},
-                                                                    {1.0, 0.06180}}};
-constexpr std::array<VanDeHulstValue, 7> VAN_DE_HULST_35_TRANSMITTED{{{0, 0.11811},
-                                                                      {0.1, 0.16486},
-                                                                      {0.3, 0.22473},
-                                                                      {0.5, 0.27785},
-                                                                      {0.7, 0.36889},
-                                                                      {0.9, 0.72155},
-                                                                      {1.0, 2.40270}}};
-constexpr double VAN_DE_HULST_35_REFLECTANCE = 0.09739;
-constexpr double VAN_DE_HULST_35_TRANSMITTANCE = 0.66096;  // with the direct beam
+inline constexpr std::array<VanDeHulstValue, 7> VAN_DE_HULST_35_REFLECTED{{{0, 0.10641},
+                                                                           {0.1, 0.13304},
+                                                                           {0.3, 0.13856},
+                                                                           {0.5, 0.11956},
+                                                                           {0.7, 0.09411},
+                                                                           {0.9, 0.07132},
+                                                                           {1.0, 0.06180}}};
+inline constexpr std::array<VanDeHulstValue, 7> VAN_DE_HULST_35_TRANSMITTED{{{0, 0.11811},
+                                                                             {0.1, 0.16486},
+                                                                             {0.3, 0.22473},
+                                                                             {0.5, 0.27785},
+                                                                             {0.7, 0.36889},
+                                                                             {0.9, 0.72155},
+                                                                             {1.0, 2.40270}}};
+inline constexpr double VAN_DE_HULST_35_REFLECTANCE = 0.09739;
+inline constexpr double VAN_DE_HULST_35_TRANSMITTANCE = 0.66096;  // with the direct beam
 
 // (2 l + 1) chi_l, l = 0, 1, ...
 // [GS85] sphere of size parameter 2, refractive index 1.33.
-constexpr std::array MIE_MOMENTS{1.0,     2.00916, 1.56339, 0.67407, 0.22215,
-                                 0.04725, 0.00671, 0.00068, 0.00005};
+inline constexpr std::array MIE_MOMENTS{1.0,     2.00916, 1.56339, 0.67407, 0.22215,
+                                        0.04725, 0.00671, 0.00068, 0.00005};
 // [GS85] Table 10.
-constexpr std::array HAZE_L_MOMENTS{
+inline constexpr std::array HAZE_L_MOMENTS{
     1.0,     2.41260, 3.23047, 3.37296, 3.23150, 2.89350, 2.49594, 2.11361, 1.74812, 1.44692,
     1.17714, 0.96643, 0.78237, 0.64114, 0.51966, 0.42563, 0.34688, 0.28351, 0.23317, 0.18963,
     0.15788, 0.12739, 0.10762, 0.08597, 0.07381, 0.05828, 0.05089, 0.03971, 0.03524, 0.02720,
@@ -74,7 +74,7 @@ constexpr std::array HAZE_L_MOMENTS{
     0.00003, 0.00003, 0.00002, 0.00002, 0.00002, 0.00001, 0.00001, 0.00001, 0.00001, 0.00001,
     0.00001, 0.00001, 0.00001};
 // [GS85] Table 17.
-constexpr std::array CLOUD_C1_MOMENTS{
+inline constexpr std::array CLOUD_C1_MOMENTS{
     1.0,    2.544,  3.883,  4.568,  5.235,  5.887,  6.457,  7.177,  7.859,  8.494,  9.286,  9.856,
     10.615, 11.229, 11.851, 12.503, 13.058, 13.626, 14.209, 14.660, 15.231, 15.641, 16.126, 16.539,
     16.934, 17.325, 17.673, 17.999, 18.329, 18.588, 18.885, 19.103, 19.345, 19.537, 19.721, 19.884,
@@ -112,10 +112,10 @@ std::vector<double> momentsOf(const std::array<double, N>& printed) {
 
 // [GS85]: tau 1, irradiance pi; a row per mu = 1, 0.9 ... -1 of our convention (their -1 ... 1), a
 // column per depth. Entries 0 are boundary conditions.
-constexpr std::array GARCIA_SIEWERT_DEPTHS{0.0, 0.05, 0.1, 0.2, 0.5, 0.75, 1.0};
+inline constexpr std::array GARCIA_SIEWERT_DEPTHS{0.0, 0.05, 0.1, 0.2, 0.5, 0.75, 1.0};
 using GarciaSiewertTable = std::array<std::array<double, 7>, 21>;
 // Mie scattering, albedo 0.95, mu0 0.5: mean over azimuth.
-constexpr GarciaSiewertTable GARCIA_SIEWERT_MIE{{
+inline constexpr GarciaSiewertTable GARCIA_SIEWERT_MIE{{
     {0.0476807, 0.0441912, 0.0406467, 0.0337099, 0.0158572, 0.00542970, 0},
     {0.0645644, 0.0603743, 0.0560139, 0.0472899, 0.0238121, 0.00901083, 0},
     {0.0845877, 0.0796763, 0.0744425, 0.0637540, 0.0338287, 0.0136919, 0},
@@ -139,7 +139,7 @@ constexpr GarciaSiewertTable GARCIA_SIEWERT_MIE{{
     {0, 0.0174231, 0.0339716, 0.0643193, 0.134819, 0.173627, 0.197932},
 }};
 // Haze L, albedo 1, mu0 1. Table 12.
-constexpr GarciaSiewertTable GARCIA_SIEWERT_HAZE_NORMAL{{
+inline constexpr GarciaSiewertTable GARCIA_SIEWERT_HAZE_NORMAL{{
     {0.0361452, 0.0343394, 0.0325109, 0.0288122, 0.0176286, 0.00852589, 0},
     {0.0397819, 0.0378723, 0.0359207, 0.0319303, 0.0196202, 0.00945731, 0},
     {0.0427313, 0.0408406, 0.0388734, 0.0347677, 0.0216019, 0.0103959, 0},
@@ -163,7 +163,7 @@ constexpr GarciaSiewertTable GARCIA_SIEWERT_HAZE_NORMAL{{
     {0, 0.364940, 0.700266, 1.28955, 2.52255, 3.09319, 3.38091},
 }};
 // Haze L, albedo 0.9, mu0 0.5, azimuth 0. Table 14.
-constexpr GarciaSiewertTable GARCIA_SIEWERT_HAZE_0{{
+inline constexpr GarciaSiewertTable GARCIA_SIEWERT_HAZE_0{{
     {0.0228190, 0.0214170, 0.0199920, 0.0171574, 0.00934719, 0.00402513, 0},
     {0.0411125, 0.0386276, 0.0360559, 0.0308703, 0.0164542, 0.00681049, 0},
     {0.0649983, 0.0612972, 0.0573958, 0.0494000, 0.0266078, 0.0110213, 0},
@@ -187,7 +187,7 @@ constexpr GarciaSiewertTable GARCIA_SIEWERT_HAZE_0{{
     {0, 0.00507113, 0.0101191, 0.0200435, 0.0476083, 0.0673492, 0.0837579},
 }};
 // The same at azimuth 90 degrees. Table 15.
-constexpr GarciaSiewertTable GARCIA_SIEWERT_HAZE_90{{
+inline constexpr GarciaSiewertTable GARCIA_SIEWERT_HAZE_90{{
     {0.0228190, 0.0214170, 0.0199920, 0.0171574, 0.00934719, 0.00402513, 0},
     {0.0269861, 0.0254001, 0.0237700, 0.0204885, 0.0112507, 0.00483998, 0},
     {0.0323251, 0.0305433, 0.0286841, 0.0248816, 0.0138576, 0.00598687, 0},
@@ -219,7 +219,7 @@ struct GarciaSiewertErratum {
   std::size_t column;
   double value;
 };
-constexpr std::array<GarciaSiewertErratum, 5> GARCIA_SIEWERT_ERRATA{{
+inline constexpr std::array<GarciaSiewertErratum, 5> GARCIA_SIEWERT_ERRATA{{
     {&GARCIA_SIEWERT_MIE, 0, 5, 0.00545297},
     {&GARCIA_SIEWERT_HAZE_NORMAL, 8, 3, 0.105506},
     {&GARCIA_SIEWERT_HAZE_NORMAL, 9, 3, 0.113497},
