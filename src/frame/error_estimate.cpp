@@ -25,15 +25,17 @@ struct Fit {
   // light; seen with the light (cosine 1) and against it (-1), between them in the logarithm.
   double forwardWith, forwardAgainst, forwardPower;
   double singleWith, singleAgainst, singlePower;
-  // Slabs: slabScale (optical depth of a slab)^slabPower + texelScale (texel / voxel)^texelPower.
-  double slabScale, slabPower, texelScale, texelPower;
+  // Slabs: m = slabScale (optical depth of a slab)^slabPower
+  //            + voxelScale (slab / voxel along the light)^voxelPower (1 / fill - 1)^edgePower,
+  // since bodies that fill little of their box are the ones with much surface.
+  double slabScale, slabPower, voxelScale, voxelPower, edgePower;
 };
 constexpr Fit FIT{
-    0.959, 0.691, 0.252, 1.229, 0.669,  // air
-    2.462, 0.638, 1.053, 0.011,         // fog
-    0.766, 7.73,  0.449,                // volumes, forward scattering
-    1.342, 4.603, 1.361,                // volumes, single scattering
-    0.1,   1.5,   0.002, 1.0,           // slabs and texels
+    0.959, 0.691, 0.252,   1.229, 0.669,  // air
+    2.462, 0.638, 1.053,   0.011,         // fog
+    0.766, 7.73,  0.449,                  // volumes, forward scattering
+    1.342, 4.603, 1.361,                  // volumes, single scattering
+    0.128, 1.66,  0.00205, 1.80,  1.63,   // slabs
 };
 
 double missing(double m) {
@@ -95,10 +97,20 @@ class Body {
     const double thin = std::cbrt(volume.fill);  // the body's chord over the box's
     lightDepth_ = volume.extinction * size / shadow * thin;
     thin_ = thin;
-    const double texel = std::sqrt(shadow) / in.quality.lightSize;
-    const double voxel = std::cbrt(size / (volume.voxels[0] * volume.voxels[1] * volume.voxels[2]));
-    slices_ = FIT.slabScale * std::pow(lightDepth_ / in.quality.sliceCount, FIT.slabPower) +
-              FIT.texelScale * std::pow(texel / voxel, FIT.texelPower);
+    double chord = 0;  // of the box and of a voxel, along the light
+    double cell = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i) {
+      const double reach = std::abs(glm::dot(axes[i], in.toLight));
+      chord += reach;
+      if (reach > 0) {
+        cell = std::min(
+            cell, glm::dot(axes[i], axes[i]) / (volume.voxels[static_cast<size_t>(i)] * reach));
+      }
+    }
+    const double slabs = in.quality.sliceCount;
+    slices_ = missing(FIT.slabScale * std::pow(lightDepth_ / slabs, FIT.slabPower) +
+                      FIT.voxelScale * std::pow(chord / (slabs * cell), FIT.voxelPower) *
+                          std::pow(std::max(1 / volume.fill - 1, 0.0), FIT.edgePower));
   }
 
   // Share of the pixel that the body hides, and its errors there.
@@ -124,7 +136,7 @@ class Body {
     const double scale = std::exp(with * std::log(a) + (1 - with) * std::log(b));
     const double power = forward ? FIT.forwardPower : FIT.singlePower;
     seen.scattering = missing(volume_.albedo * scale * std::pow(reduced, power));
-    seen.slices = std::min(slices_, 1.0);
+    seen.slices = slices_;
     return seen;
   }
 

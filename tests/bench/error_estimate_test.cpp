@@ -76,7 +76,7 @@ TEST(ErrorEstimate, IsWithinAFactorOfTwoForMostScenes) {
 // Thickness of slabs and size of texels alone, where they are seen at all.
 TEST(ErrorEstimate, FollowsTheSlabs) {
   constexpr double SEEN = 2e-3;
-  constexpr double USUAL = 3.0;
+  constexpr double USUAL = 4.0;  // one rule for soft layers and for hard edges
   size_t rows = 0;
   size_t within = 0;
   for (const Compared& one : compareAll()) {
