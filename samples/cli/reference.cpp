@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 // welkin reference: a scene file to the picture that Welkin aims at, by Monte Carlo on the CPU.
-#include <unistd.h>
-
+#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,6 +11,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/reference_scene.hpp"
+#include "cli/scene_options.hpp"
 #include "common/error.hpp"
 
 namespace cli {
@@ -35,6 +33,7 @@ struct ReferenceOptions {
   std::optional<uint32_t> order;
   unsigned threads = 0;
   bool disk = false;
+  bool mie = false;
   bool ratioTracking = false;
 };
 
@@ -50,62 +49,12 @@ compares with pictures of the quality setting scattering=single. The picture get
 transmittance.R, .G, .B.
 
 Scattering uses the middle of the sun's disk, as the library does: its phase functions of rain and
-ice contain the disk already. --disk samples the disk instead.)";
+ice contain the disk already. --disk samples the disk instead.
 
-// Progress in percent on a terminal, for long work; silent elsewhere.
-class PercentLine {
- public:
-  PercentLine() = default;
-  PercentLine(const PercentLine&) = delete;
-  PercentLine& operator=(const PercentLine&) = delete;
-  ~PercentLine() {
-    if (terminal_) {
-      std::fprintf(stderr, "\r\033[K");
-    }
-  }
-  void show(const std::string& text) const {
-    if (terminal_) {
-      std::fprintf(stderr, "\r\033[K%s ...", text.c_str());
-    }
-  }
-  void show(double part) {
-    const int percent = static_cast<int>(100.0 * part);
-    if (percent != last_) {
-      last_ = percent;
-      show(std::to_string(percent) + " %");
-    }
-  }
-
- private:
-  bool terminal_ = isatty(STDERR_FILENO) != 0;
-  int last_ = -1;
-};
-
-host::Scene readReferenceScene(const ReferenceOptions& options) {
-  std::vector<std::string> assignments = options.assignments;
-  if (!options.size.empty()) {
-    const size_t cross = options.size.find('x');
-    if (cross == std::string::npos) {
-      throw host::InputError("command line", "--size", "expected WxH, for example 1280x720");
-    }
-    assignments.push_back("view.size=[" + options.size.substr(0, cross) + "," +
-                          options.size.substr(cross + 1) + "]");
-  }
-  return host::parseScene(host::readSceneJson(options.scene, assignments), options.scene);
-}
-
-void checkReferenceOptions(const ReferenceOptions& options) {
-  for (const std::string* file : {&options.exr, &options.variance, &options.png, &options.stats}) {
-    const std::filesystem::path folder = std::filesystem::path(*file).parent_path();
-    std::error_code error;
-    if (!folder.empty() && !std::filesystem::is_directory(folder, error)) {
-      throw host::InputError(*file, "", "expected an existing folder");
-    }
-  }
-  if (options.order && options.maxOrder) {
-    throw host::InputError("command line", "--order", "expected --order or --max-order, not both");
-  }
-}
+--mie computes the phase functions of cloud, fog and haze from the diameter by Mie theory of the
+tests' own, so that nothing but opaque geometry is the library's; other particles but air and
+henyey-greenstein are refused. On two cores it takes 3 s for haze, 40 s for 50 um, twice that for
+the widest spread; noise of single angles 0.7 %, 0.15 % rms.)";
 
 // One colour of each estimate as a picture; alpha 1.
 template <class Value>
@@ -167,6 +116,7 @@ void writeReferenceStatistics(const ReferenceOptions& options, const host::Scene
                     : options.maxOrder ? nlohmann::ordered_json(*options.maxOrder)
                                        : nlohmann::ordered_json(nullptr)},
       {"disk", options.disk},
+      {"mie", options.mie},
       {"time_s", wall_s},
       {"cpu_s", cpu_s},
       {"paths", result.paths},
@@ -185,13 +135,17 @@ void writeReferenceStatistics(const ReferenceOptions& options, const host::Scene
 }
 
 void run(const ReferenceOptions& options) {
-  const host::Scene scene = readReferenceScene(options);
-  checkReferenceOptions(options);
-  PercentLine line;
+  if (options.order && options.maxOrder) {
+    throw host::InputError("command line", "--order", "expected --order or --max-order, not both");
+  }
+  const host::Scene scene = readSizedScene(options.scene, options.assignments, options.size);
+  checkFolders({options.exr, options.variance, options.png, options.stats});
+  ProgressLine line;
   const host::ContextPtr context = host::makeCpuContext();
   host::applyWorld(context.get(), scene);
-  const ReferenceScene reference = makeReferenceScene(
-      context.get(), scene, options.disk, [&](const std::string& text) { line.show(text); });
+  const ReferenceScene reference =
+      makeReferenceScene(context.get(), scene, {options.disk, options.mie, options.threads},
+                         [&](const std::string& text) { line.show(text); });
 
   mc::RenderOptions how;
   how.samples = options.samples;
@@ -218,8 +172,7 @@ void run(const ReferenceOptions& options) {
                                              [](const mc::Estimate& e) { return e.variance; }));
   }
   if (!options.png.empty()) {
-    host::writePng(options.png, picture, scene.png.exposureStops - std::log2(exposure),
-                   scene.png.toneMap);
+    host::writePng(options.png, picture, pngStops(scene), scene.png.toneMap);
   }
   if (!options.stats.empty()) {
     writeReferenceStatistics(options, scene, result, wall.count(), cpu_s);
@@ -241,10 +194,12 @@ void addReference(CLI::App& app) {
   command->add_option("--size", options->size, "WxH in pixels, over the scene's");
   command->add_option("--spp", options->samples, "Paths per pixel and colour, default 64")
       ->check(CLI::Range(uint64_t{2}, uint64_t{1} << 32));
-  command->add_option("--seed", options->seed, "Of the random numbers, default 1");
+  command->add_option("--seed", options->seed, "Of the random numbers, default 1")
+      ->check(CLI::Range(uint64_t{0}, uint64_t{1} << 63));
   command->add_option("--max-order", options->maxOrder, "Scatterings and reflections, at most");
   command->add_option("--order", options->order, "Scatterings and reflections, exactly");
   command->add_flag("--disk", options->disk, "Scattering feels the size of the sun's disk");
+  command->add_flag("--mie", options->mie, "Droplets by Mie theory apart from the library's");
   command->add_flag("--ratio-tracking", options->ratioTracking,
                     "Shadows in volumes by ratio tracking, as a check");
   command->add_option("--threads", options->threads, "Default: all cores; no influence on results")

@@ -2,10 +2,11 @@
 #include "cli/reference_scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
-#include <memory>
 
+#include "cli/droplet_phase.hpp"
 #include "common/error.hpp"
 
 namespace cli {
@@ -63,31 +64,77 @@ truth::PhaseFunction phaseOf(WlkContext context, WlkMedium medium) {
   return truth::PhaseFunction::table(angles, values);
 }
 
-// The best phase function that the library has, whatever the scene's choice of model.
-TruthMedium mediumOf(WlkContext context, WlkMediumInfo info, const std::string& file,
-                     const std::string& key) {
-  info.phaseModel = WLK_PHASE_DEFAULT;
-  WlkMedium medium{};
-  host::check(wlkCreateMedium(context, &info, &medium), file, key);
-  TruthMedium result;
-  if (info.particle == WLK_PARTICLE_AIR) {
-    result.phase = truth::PhaseFunction::rayleigh();
-  } else if (info.particle == WLK_PARTICLE_HENYEY_GREENSTEIN) {
-    result.phase = truth::PhaseFunction::henyeyGreenstein(double{info.asymmetry});
-  } else {
-    result.phase = phaseOf(context, medium);
+// Makes media, each kind of droplets only once.
+class MediaTruth {
+ public:
+  MediaTruth(WlkContext context, const host::Scene& scene, const ReferenceSettings& settings,
+             const host::Progress& progress)
+      : context_(context), scene_(scene), settings_(settings), progress_(progress) {}
+
+  // The best phase function that there is, whatever the scene's choice of model.
+  TruthMedium make(WlkMediumInfo info, const std::string& key) {
+    info.phaseModel = WLK_PHASE_DEFAULT;
+    WlkMedium medium{};
+    host::check(wlkCreateMedium(context_, &info, &medium), scene_.file, key);
+    TruthMedium result;
+    result.albedo = rgbOf(info.singleScatteringAlbedo);
+    if (info.particle == WLK_PARTICLE_AIR) {
+      result.phase = truth::PhaseFunction::rayleigh();
+    } else if (info.particle == WLK_PARTICLE_HENYEY_GREENSTEIN) {
+      result.phase = truth::PhaseFunction::henyeyGreenstein(double{info.asymmetry});
+    } else if (settings_.mie) {
+      result.phase = droplets(info, key);
+    } else {
+      result.phase = phaseOf(context_, medium);
+      takeOffStraight(medium, result);
+    }
+    host::check(wlkDestroyMedium(context_, medium), "wlkDestroyMedium");
+    return result;
   }
-  auto optics = host::make<WlkMediumOptics>();
-  host::check(wlkGetMediumOptics(context, medium, &optics), "wlkGetMediumOptics");
-  for (size_t c = 0; c < 3; ++c) {
-    const double albedo = double{info.singleScatteringAlbedo[c]};
-    const double straight = double{optics.deltaFraction[c]};
-    result.extinction[c] = 1.0 - straight * albedo;
-    result.albedo[c] = albedo > 0.0 ? (1.0 - straight) * albedo / result.extinction[c] : 0.0;
+
+ private:
+  truth::PhaseFunction droplets(const WlkMediumInfo& info, const std::string& key) {
+    // Defaults as in welkin/scene.h.
+    const std::map<uint32_t, double> diameters = {
+        {WLK_PARTICLE_CLOUD, 20.0}, {WLK_PARTICLE_FOG, 10.0}, {WLK_PARTICLE_HAZE, 0.6}};
+    const auto found = diameters.find(info.particle);
+    if (found == diameters.end()) {
+      throw host::InputError(scene_.file, key,
+                             "expected cloud, fog, haze, air or henyey-greenstein with --mie");
+    }
+    Droplets wanted;
+    wanted.diameter_um = info.diameter_um > 0.0f ? double{info.diameter_um} : found->second;
+    wanted.spread = info.spread > 0.0f ? double{info.spread} : wanted.spread;
+    if (info.wavelength_um > 0.0f) {
+      wanted.wavelength_um.fill(double{info.wavelength_um});
+    }
+    const std::array<double, 3> same = {wanted.diameter_um, wanted.spread, wanted.wavelength_um[0]};
+    auto known = known_.find(same);
+    if (known == known_.end()) {
+      progress_("Mie theory");
+      known = known_.emplace(same, dropletPhase(wanted, settings_.threads)).first;
+    }
+    return known->second;
   }
-  host::check(wlkDestroyMedium(context, medium), "wlkDestroyMedium");
-  return result;
-}
+
+  // What goes straight on counts as unscattered.
+  void takeOffStraight(WlkMedium medium, TruthMedium& result) const {
+    auto optics = host::make<WlkMediumOptics>();
+    host::check(wlkGetMediumOptics(context_, medium, &optics), "wlkGetMediumOptics");
+    for (size_t c = 0; c < 3; ++c) {
+      const double albedo = result.albedo[c];
+      const double straight = double{optics.deltaFraction[c]};
+      result.extinction[c] = 1.0 - straight * albedo;
+      result.albedo[c] = albedo > 0.0 ? (1.0 - straight) * albedo / result.extinction[c] : 0.0;
+    }
+  }
+
+  WlkContext context_;
+  const host::Scene& scene_;
+  const ReferenceSettings& settings_;
+  const host::Progress& progress_;
+  std::map<std::array<double, 3>, truth::PhaseFunction> known_;
+};
 
 truth::ExponentialLayer airLayer(const WlkSky& sky) {
   truth::ExponentialLayer layer;
@@ -97,7 +144,7 @@ truth::ExponentialLayer airLayer(const WlkSky& sky) {
   return layer;
 }
 
-truth::ExponentialLayer fogLayer(WlkContext context, const WlkFog& fog, const std::string& file) {
+truth::ExponentialLayer fogLayer(MediaTruth& media, const WlkFog& fog) {
   auto info = host::make<WlkMediumInfo>();
   info.particle = WLK_PARTICLE_FOG;
   info.diameter_um = fog.dropletDiameter_um;
@@ -106,7 +153,7 @@ truth::ExponentialLayer fogLayer(WlkContext context, const WlkFog& fog, const st
   layer.scaleHeight = double{fog.scaleHeight};
   layer.extinction.fill(double{fog.extinction});
   layer.albedo = rgbOf(fog.singleScatteringAlbedo);
-  layer.phase = mediumOf(context, info, file, "fog").phase;
+  layer.phase = media.make(info, "fog").phase;
   return layer;
 }
 
@@ -180,7 +227,8 @@ std::vector<truth::EyeRay> raysOf(const host::Scene& scene, const host::RasterRe
 
 }  // namespace
 
-ReferenceScene makeReferenceScene(WlkContext context, const host::Scene& scene, bool disk,
+ReferenceScene makeReferenceScene(WlkContext context, const host::Scene& scene,
+                                  const ReferenceSettings& settings,
                                   const host::Progress& progress) {
   ReferenceScene result;
   truth::Scene& out = result.scene;
@@ -202,22 +250,22 @@ ReferenceScene makeReferenceScene(WlkContext context, const host::Scene& scene, 
     to.direction = truth::normalized(rgbOf(light.direction));
     to.irradiance = rgbOf(light.irradiance);
     const bool drawn = air && layer(WLK_LAYER_SUN_DISK);
-    to.angularDiameter = drawn || disk ? double{light.angularDiameter} : 0.0;
-    to.blurs = disk;
+    to.angularDiameter = drawn || settings.disk ? double{light.angularDiameter} : 0.0;
+    to.blurs = settings.disk;
     out.lights.push_back(to);
   }
   progress("phase functions");
+  MediaTruth truths(context, scene, settings, progress);
   if (air) {
     out.layers.push_back(airLayer(*scene.sky));
   }
   if (fog) {
-    out.layers.push_back(fogLayer(context, *scene.fog, scene.file));
+    out.layers.push_back(fogLayer(truths, *scene.fog));
   }
   if (layer(WLK_LAYER_VOLUMES)) {
     std::vector<TruthMedium> media;
     for (const host::MediumDesc& medium : scene.media) {
-      media.push_back(
-          mediumOf(context, host::mediumInfo(medium), scene.file, "media." + medium.name));
+      media.push_back(truths.make(host::mediumInfo(medium), "media." + medium.name));
     }
     for (size_t i = 0; i < scene.volumes.size(); ++i) {
       progress("volume " + std::to_string(i + 1) + " of " + std::to_string(scene.volumes.size()));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene file as the Monte Carlo reference sees it. Only phase functions, optics and the picture
-// of opaque geometry come from the library.
+// A scene file as the Monte Carlo reference sees it. From the library come the picture of opaque
+// geometry and, unless they are asked for otherwise, phase functions and optics of particles.
 #pragma once
 
 #include <vector>
@@ -17,9 +17,18 @@ struct ReferenceScene {
   std::vector<welkin::reference::EyeRay> rays;
 };
 
-/// `context` may be without Vulkan and needs host::applyWorld. `disk`: scattering feels the size of
-/// the lights' disks. Throws InputError.
-ReferenceScene makeReferenceScene(WlkContext context, const host::Scene& scene, bool disk,
+struct ReferenceSettings {
+  /// Scattering feels the size of the lights' disks.
+  bool disk = false;
+  /// Droplets by droplet_phase.hpp. Refuses rain, ice, snow and user tables.
+  bool mie = false;
+  /// For droplets; 0: all cores.
+  unsigned threads = 0;
+};
+
+/// `context` may be without Vulkan and needs host::applyWorld. Throws InputError.
+ReferenceScene makeReferenceScene(WlkContext context, const host::Scene& scene,
+                                  const ReferenceSettings& settings,
                                   const host::Progress& progress);
 
 }  // namespace cli

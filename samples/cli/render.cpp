@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: MIT
 // welkin render: a scene file to a picture.
-#include <unistd.h>
-
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstdio>
-#include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
+#include "cli/scene_options.hpp"
 #include "cli/statistics.hpp"
 #include "common/apply.hpp"
 #include "common/error.hpp"
@@ -31,28 +25,6 @@ struct RenderOptions {
   bool validate = false;
 };
 
-// A line on the terminal that overwrites itself; silent elsewhere.
-class ProgressLine {
- public:
-  ~ProgressLine() { erase(); }
-  ProgressLine() = default;
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-  void show(const std::string& text) const {
-    if (terminal_) {
-      std::fprintf(stderr, "\r\033[K%s ...", text.c_str());
-    }
-  }
-  void erase() const {
-    if (terminal_) {
-      std::fprintf(stderr, "\r\033[K");
-    }
-  }
-
- private:
-  bool terminal_ = isatty(STDERR_FILENO) != 0;
-};
-
 class Stopwatch {
  public:
   [[nodiscard]] double lap_ms() {
@@ -66,30 +38,13 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-// RenderOptions that are short for assignments.
+// --quality is short for an assignment.
 std::vector<std::string> assignmentsOf(const RenderOptions& options) {
   std::vector<std::string> assignments = options.assignments;
   if (!options.quality.empty()) {
     assignments.push_back("quality.level=" + options.quality);
   }
-  if (!options.size.empty()) {
-    const size_t cross = options.size.find('x');
-    if (cross == std::string::npos) {
-      throw host::InputError("command line", "--size", "expected WxH, for example 1280x720");
-    }
-    assignments.push_back("view.size=[" + options.size.substr(0, cross) + "," +
-                          options.size.substr(cross + 1) + "]");
-  }
   return assignments;
-}
-
-// Fails before the work, not after it, when the folder of an output file is missing.
-void checkFolder(const std::string& file) {
-  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-  std::error_code error;
-  if (!file.empty() && !folder.empty() && !std::filesystem::is_directory(folder, error)) {
-    throw host::InputError(file, "", "expected an existing folder");
-  }
 }
 
 host::Image readback(WlkContext context, WlkView view, const host::Scene& scene, uint32_t which) {
@@ -115,11 +70,6 @@ host::Image composite(const host::Image& radiance, const host::Image& transmitta
   return image;
 }
 
-// The exposure compensates preExposure, so that it does not change the PNG.
-double pngStops(const host::Scene& scene) {
-  return scene.png.exposureStops - std::log2(scene.camera.preExposure);
-}
-
 void writePictures(const RenderOptions& options, WlkContext context, WlkView view,
                    const host::Scene& scene, const host::Image& opaque) {
   host::Image picture;
@@ -138,11 +88,8 @@ void writePictures(const RenderOptions& options, WlkContext context, WlkView vie
 }
 
 void run(const RenderOptions& options) {
-  const host::Scene scene =
-      host::parseScene(host::readSceneJson(options.scene, assignmentsOf(options)), options.scene);
-  for (const std::string* file : {&options.exr, &options.png, &options.stats}) {
-    checkFolder(*file);
-  }
+  const host::Scene scene = readSizedScene(options.scene, assignmentsOf(options), options.size);
+  checkFolders({options.exr, options.png, options.stats});
   const ProgressLine line;
   const host::Progress progress = [&](const std::string& text) { line.show(text); };
   RenderTimes times;

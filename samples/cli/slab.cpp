@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "cli/commands.hpp"
+#include "cli/scene_options.hpp"
 #include "common/api.hpp"
 #include "common/csv.hpp"
 #include "common/error.hpp"
@@ -41,8 +42,8 @@ constexpr const char* SLAB_HELP = R"(
 Columns of IN, named by its first line, or in this order if the first line holds numbers:
   tau              optical thickness across the slab, [1e-6, 1e6]
   albedo           single-scattering albedo, [0, 1]
-  g                mean cosine of Henyey-Greenstein, (-1, 1); without a medium, and only then
-  sunZenith_deg    degrees in [0, 90)
+  g                mean cosine of Henyey-Greenstein, [-0.999, 0.999]; only without a medium
+  sunZenith_deg    degrees in [0, 89.999]
   viewZenith_deg   between the zenith and the light's direction of travel, degrees in [0, 180] but
                    90: below 90 it leaves the top (reflected), above the bottom (transmitted)
   azimuth_deg      between the directions of travel of the light and of the beam; 0 is forward, so
@@ -175,7 +176,10 @@ std::vector<SlabColour> slabColours(const SlabOptions& options) {
       colours[c].value.push_back(phase[3 * i + c]);
     }
     colours[c].straight = double{optics.deltaFraction[c]};
-    colours[c].phase = rt::tabulatedSlabPhase(angles, colours[c].value, MOMENTS);
+    // Moments take most of a second: grey media need them once.
+    colours[c].phase = c > 0 && colours[c].value == colours[c - 1].value
+                           ? colours[c - 1].phase
+                           : rt::tabulatedSlabPhase(angles, colours[c].value, MOMENTS);
   }
   return colours;
 }
@@ -282,14 +286,12 @@ void runSlab(const SlabOptions& options) {
   if (options.nodes < 8 || options.nodes > 256) {
     refuse("--nodes", "expected a number in [8, 256]");
   }
-  if (options.samples < 2) {
-    refuse("--samples", "expected at least 2");
-  }
   if (options.scene.empty() != options.medium.empty()) {
     refuse("--medium", "expected together with --scene");
   }
-  const bool medium =
-      options.particle.has_value() || !options.scene.empty() || !options.assignments.empty();
+  const bool medium = options.particle || options.diameter_um || options.wavelength_um ||
+                      !options.scene.empty() || !options.assignments.empty();
+  checkFolders({options.out});
   const bool random = options.method == "montecarlo";
   const host::CsvTable table = readSlabTable(options, medium);
   SlabMethods methods(options, medium ? slabColours(options) : std::vector<SlabColour>{});
@@ -336,8 +338,10 @@ void addSlab(CLI::App& app) {
   command->add_option("--out", options->out, "Results (CSV)")->required();
   command->add_option("--method", options->method, "ordinates (default) or montecarlo");
   command->add_option("--nodes", options->nodes, "Directions per hemisphere; default 48");
-  command->add_option("--samples", options->samples, "Paths per value; default 100000");
-  command->add_option("--seed", options->seed, "Of the random numbers; default 1");
+  command->add_option("--samples", options->samples, "Paths per value; default 100000")
+      ->check(CLI::Range(uint64_t{2}, uint64_t{1} << 40));
+  command->add_option("--seed", options->seed, "Of the random numbers; default 1")
+      ->check(CLI::Range(uint64_t{0}, uint64_t{1} << 63));
   command->add_option("--particle", options->particle, "As in welkin phase");
   command->add_option("--diameter", options->diameter_um, "Median diameter, um");
   command->add_option("--wavelength", options->wavelength_um,
