@@ -33,7 +33,7 @@ constexpr uint32_t SINGLE = WLK_SCATTERING_SINGLE;
 constexpr uint32_t FORWARD = WLK_SCATTERING_FORWARD;
 constexpr uint32_t INTEGER = WLK_SCATTERING_FORWARD_INTEGER;
 
-constexpr std::array<Variation, 20> VARIATIONS = {{
+constexpr std::array<Variation, 26> VARIATIONS = {{
     {"slices-16", HIGH, 16, 0, 0, ALIGNED, FORWARD, Run::Curves},
     {"slices-32", HIGH, 32, 0, 0, ALIGNED, FORWARD, Run::Full},
     {"slices-64", HIGH, 64, 0, 0, ALIGNED, FORWARD, Run::Curves},
@@ -45,6 +45,12 @@ constexpr std::array<Variation, 20> VARIATIONS = {{
     {"light-64", HIGH, 0, 0, 64, ALIGNED, FORWARD, Run::Curves},
     {"light-128", HIGH, 0, 0, 128, ALIGNED, FORWARD, Run::Full},
     {"light-512", HIGH, 0, 0, 512, ALIGNED, FORWARD, Run::Full},
+    {"32-64", HIGH, 32, 0, 64, ALIGNED, FORWARD, Run::Full},
+    {"64-64", HIGH, 64, 0, 64, ALIGNED, FORWARD, Run::Full},
+    {"64-128", HIGH, 64, 0, 128, ALIGNED, FORWARD, Run::Full},
+    {"256-128", HIGH, 256, 0, 128, ALIGNED, FORWARD, Run::Full},
+    {"512-256", HIGH, 512, 0, 256, ALIGNED, FORWARD, Run::Full},
+    {"256-512", HIGH, 256, 0, 512, ALIGNED, FORWARD, Run::Full},
     {"512-512", HIGH, 512, 0, 512, ALIGNED, FORWARD, Run::Full},
     {"half-angle", HIGH, 0, 0, 0, HALF, FORWARD, Run::Quick},
     {"half-angle-512", HIGH, 512, 0, 0, HALF, FORWARD, Run::Full},

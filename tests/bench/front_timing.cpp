@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <limits>
 
 namespace bench {
 namespace {
@@ -12,7 +13,11 @@ namespace {
 // A frame is repeated until a round spends this long on it: timers and schedulers then matter
 // less than 1 %.
 constexpr double MIN_ROUND_ms = 30.0;
-constexpr size_t MAX_REPEATS = 16;
+constexpr size_t MAX_REPEATS = 64;
+// Cheap scenes get more rounds, up to MORE_ROUNDS times as many: their ratios then repeat within 5
+// %.
+constexpr double MIN_STUDY_ms = 4000.0;
+constexpr size_t MORE_ROUNDS = 7;
 // A frame longer than this needs no second warm-up: what is made once is a small part of it.
 constexpr double LONG_WARM_UP_ms = 200.0;
 
@@ -98,8 +103,9 @@ double medianOf(std::vector<double> values) {
 std::vector<Timing> interleave(const std::vector<RenderFrame>& frames, size_t anchor,
                                size_t warmUps, size_t rounds) {
   std::vector<size_t> repeats(frames.size(), 1);
+  double round_ms = 0;
   for (size_t i = 0; i < frames.size(); ++i) {
-    double shortest = MIN_ROUND_ms;
+    double shortest = std::numeric_limits<double>::infinity();
     double spent = 0.0;
     for (size_t k = 0; k < warmUps && (k == 0 || spent < LONG_WARM_UP_ms); ++k) {
       const double wall = timeFrames(frames[i], 1).wall;
@@ -108,7 +114,10 @@ std::vector<Timing> interleave(const std::vector<RenderFrame>& frames, size_t an
     }
     const double wanted = std::ceil(MIN_ROUND_ms / std::max(shortest, 1e-3));
     repeats[i] = std::clamp<size_t>(static_cast<size_t>(wanted), 1, MAX_REPEATS);
+    round_ms += shortest * static_cast<double>(repeats[i]);
   }
+  const auto fill = static_cast<size_t>(MIN_STUDY_ms / round_ms);
+  rounds = std::clamp(fill, rounds, MORE_ROUNDS * rounds);
   std::vector<std::vector<Sample>> samples(frames.size());
   for (size_t round = 0; round < rounds; ++round) {
     for (size_t k = 0; k < frames.size(); ++k) {

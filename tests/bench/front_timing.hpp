@@ -28,7 +28,8 @@ struct Timing {
 using RenderFrame = std::function<double()>;
 
 /// Calls every frame `warmUps` times, then once per round, in an order that turns by one place each
-/// round; a frame too short to time alone is repeated and its mean taken.
+/// round; a frame too short to time alone is repeated and its mean taken, and cheap sets of frames
+/// get more rounds.
 std::vector<Timing> interleave(const std::vector<RenderFrame>& frames, size_t anchor,
                                size_t warmUps, size_t rounds);
 
