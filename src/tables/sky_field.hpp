@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Light in air and fog over a round planet that has been scattered or reflected at least once: its
+// directional moments by altitude and sun, per unit irradiance of the light. They are all that a
+// phase function of two Legendre terms needs for the source of every further scattering, so one
+// small table serves every camera and every sun. Successive orders; no Vulkan.
+//
+// Frame of the moments at a point: y up, x horizontal towards the light's azimuth. Directions point
+// to where light comes from.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "model/evaluate.hpp"
+
+namespace welkin {
+
+using SkyColor = std::array<double, 3>;
+
+struct SkyFieldInput {
+  AirInput air;
+  // Legendre moments 1 to 3 of the fog's phase function. The third is taken for its forward peak,
+  // which counts as unscattered (delta-M, Wiscombe 1977): what is left has no more than two terms.
+  std::array<SkyColor, 3> fogMoments{};
+  SkyColor groundAlbedo{};
+  double lightAngularRadius = 0.00466;
+};
+
+// How finely the orders are gathered. The defaults are the coarsest whose doubling changes no more
+// than what the truncation at two terms does (tests/unit/sky_field_test.cpp).
+struct SkyFieldSteps {
+  int zenithNodes = 6;  // above and below the horizon each
+  int azimuths = 8;     // around the whole circle, even
+  int steps = 20;       // along a ray
+  int maxOrders = 64;
+};
+
+class SkyField {
+ public:
+  static constexpr size_t ALTITUDES = 32;
+  static constexpr size_t SUNS = 48;
+  // xx, yy, zz, xy: integral of L w w^T over the sphere; x, y: of L w. 1/sr times sr.
+  static constexpr size_t MOMENTS = 6;
+  using Moments = std::array<SkyColor, MOMENTS>;
+
+  // `air` as the moments see it, with the fog's forward peak taken out.
+  const AirInput& air() const { return air_; }
+  Moments momentsAt(double altitude, double sunMu) const;
+  // Diffuse light on horizontal ground at sea level.
+  SkyColor irradianceAt(double sunMu) const;
+  int orders() const { return orders_; }
+
+  // Radiance, 1/sr, of light scattered or reflected at least twice that comes along a ray of
+  // `distance` m (may be infinite) from the air, and from the ground if the ray ends there; without
+  // what the fog turned only within its forward peak but once.
+  SkyColor radianceAlong(double altitude, double viewMu, double sunMu, double viewSun,
+                         double distance, int steps = 48) const;
+  // The same with all light: what passed the fog within its peak is lit, or seen, as if it had not
+  // been scattered. fogPhase: RGB, 1/sr, at the ray's angle with the light.
+  SkyColor higherOrdersAlong(double altitude, double viewMu, double sunMu, double viewSun,
+                             double distance, const SkyColor& fogPhase) const;
+
+ private:
+  friend SkyField solveSkyField(const SkyFieldInput& input, const SkyFieldSteps& steps);
+
+  AirInput air_;         // without the peak
+  AirInput attenuated_;  // the same scattering, attenuated by all of the fog
+  double lightAngularRadius_ = 0;
+  double peak_ = 0;
+  std::array<SkyColor, 2> fogMoments_{};
+  SkyColor groundAlbedo_{};
+  int orders_ = 0;
+  std::vector<float> moments_;     // [altitude][sun][moment][channel]
+  std::vector<float> irradiance_;  // [sun][channel]
+};
+
+SkyField solveSkyField(const SkyFieldInput& input, const SkyFieldSteps& steps = {});
+
+}  // namespace welkin

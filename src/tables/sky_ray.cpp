@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "tables/sky_ray.hpp"
+
+#include "model/model.hpp"
+#include "tables/sky_air.hpp"
+
+namespace welkin {
+namespace {
+
+using namespace model::f64;
+
+// Stops of `count` steps, dense towards the eye, or towards the densest point of a ray that sinks.
+std::vector<double> stopsOf(double lowest, double reach, int count) {
+  std::vector<double> stops;
+  const auto quadratic = [&](double from, double to, int n, bool denseAtEnd) {
+    for (int i = 0; i < n; ++i) {
+      const double x = static_cast<double>(i) / n;
+      stops.push_back(from + (to - from) * (denseAtEnd ? x * (2 - x) : x * x));
+    }
+  };
+  if (lowest <= 0) {
+    quadratic(0, reach, count, false);
+  } else if (lowest >= reach) {
+    quadratic(0, reach, count, true);
+  } else {
+    quadratic(0, lowest, count / 2, true);
+    quadratic(lowest, reach, count - count / 2, false);
+  }
+  stops.push_back(reach);
+  return stops;
+}
+
+}  // namespace
+
+SkyRay planRay(const AirInput& input, const SkyAxes& axes, double altitude, double viewMu,
+               double distance, int count) {
+  const Air air = airFrom(input);
+  SkyRay plan;
+  const double ground = groundDistance(altitude, viewMu, air.planetRadius);
+  if (ground >= 0 && ground <= distance) {
+    plan.ground = ground;
+    distance = ground;
+  }
+  AirRay ray;
+  ray.altitude = altitude;
+  ray.viewMu = viewMu;
+  ray.sunMu = 1;
+  ray.viewSun = viewMu;
+  const AirPath path = clipToAir(air, ray, distance);
+  double before = 0;
+  if (altitude > path.altitude) {
+    // The path starts where the ray enters: the way there follows from its radius.
+    const double r = air.planetRadius + altitude;
+    const double rTop = air.planetRadius + path.altitude;
+    before = -r * viewMu -
+             std::sqrt(std::max((rTop - path.lowestRadius) * (rTop + path.lowestRadius), 0.0));
+  }
+  double columns[2] = {0, 0};
+  const auto depthOf = [&](size_t c) {
+    return air.airScattering[static_cast<int>(c)] * columns[0] + air.fogExtinction * columns[1];
+  };
+  if (path.reach > 0) {
+    const std::vector<double> stops = stopsOf(path.lowest, path.reach, count);
+    AirPoint near = airPoint(air, path, 0.0);
+    for (size_t i = 0; i + 1 < stops.size(); ++i) {
+      const AirPoint far = airPoint(air, path, stops[i + 1]);
+      const AirSpan span = airSpan(air, path, near, far);
+      const double length = stops[i + 1] - stops[i];
+      SkyStep step{};
+      double own[3];
+      double start[3];
+      for (size_t c = 0; c < 3; ++c) {
+        start[c] = depthOf(c);
+      }
+      const double middleDepth =
+          air.airScattering.y * span.air.column + air.fogExtinction * span.fog.column;
+      columns[0] += span.air.column;
+      columns[1] += span.fog.column;
+      for (size_t c = 0; c < 3; ++c) {
+        own[c] = depthOf(c) - start[c];
+        const double seen =
+            std::exp(-start[c]) * (own[c] > 1e-6 ? -std::expm1(-own[c]) / own[c] : 1 - own[c] / 2);
+        const int k = static_cast<int>(c);
+        step.air[c] = static_cast<float>(air.airScattering[k] * span.air.column * seen);
+        step.fog[c] =
+            static_cast<float>(air.fogExtinction * air.fogAlbedo[k] * span.fog.column * seen);
+      }
+      // Where the light comes from in the mean, by the attenuation in the middle of the spectrum.
+      const double centre = middleDepth > 1e-3 ? 1 / middleDepth - 1 / std::expm1(middleDepth)
+                                               : 0.5 - middleDepth / 12;
+      const double at = stops[i] + centre * length;
+      step.distance = static_cast<float>(before + at);
+      step.altitude = altitudeAlongRay(path.altitude, path.viewMu, air.planetRadius, at);
+      step.radius = static_cast<float>(air.planetRadius + step.altitude);
+      step.high = nodeAt(axes.coordinate(step.altitude), SkyField::ALTITUDES);
+      plan.steps.push_back(step);
+      near = far;
+    }
+  }
+  for (size_t c = 0; c < 3; ++c) {
+    plan.atGround[c] = static_cast<float>(std::exp(-depthOf(c)));
+  }
+  return plan;
+}
+
+namespace {
+
+float rootOf(float x) {
+  return std::sqrt(std::max(x, 0.0F));
+}
+
+}  // namespace
+
+SkyPlace placeAt(const SkyAim& aim, const SkyStep& step) {
+  const float scale = 1 / step.radius;
+  SkyPlace place;
+  place.sunMu =
+      std::clamp((aim.radius * aim.sunMu + step.distance * aim.viewSun) * scale, -1.0F, 1.0F);
+  place.view.y = std::clamp((aim.radius * aim.viewMu + step.distance) * scale, -1.0F, 1.0F);
+  const float sine = rootOf((1 - place.sunMu) * (1 + place.sunMu));
+  const float flat = rootOf((1 - place.view.y) * (1 + place.view.y));
+  const float x = (aim.viewSun - place.sunMu * place.view.y) / std::max(sine, 1e-4F);
+  place.view.x = std::clamp(x, -flat, flat);
+  place.view.z = rootOf((flat - place.view.x) * (flat + place.view.x));
+  return place;
+}
+
+}  // namespace welkin
