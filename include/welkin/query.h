@@ -42,6 +42,23 @@ WLK_API WlkResult wlkEvalSky(WlkContext context, const WlkRayBatch* batch, doubl
 WLK_API WlkResult wlkEvalLight(WlkContext context, uint32_t lightIndex, const double position[3],
                                double irradiance[3]);
 
+/** Values of wlkEvalAmbient: 9 coefficients of 3 colours. */
+#define WLK_AMBIENT_VALUES 27
+
+/** Light from everywhere but the light itself at a world point, of all orders of scattering in air
+ *  and fog and by the ground, as real spherical harmonics of its radiance: 9 coefficients, each
+ *  RGB, in the order 1; y, z, x; xy, yz, 3 z^2 - 1, xz, x^2 - y^2 with the usual constants, in the
+ *  world's axes and of directions towards where the light comes from. The integral of the radiance
+ *  is sqrt(4 pi) times the first; a Lambertian surface's irradiance follows by Ramamoorthi and
+ *  Hanrahan 2001. Light that droplets turn within their forward peak counts as the light's own
+ *  direction. Volumes are not seen, and wlkEvalSky's radiance has the first order only. Error for
+ *  suns above the horizon, of the first coefficient: 2 % in air, 8 % in fog. The point may be as
+ *  high as 10 scale heights of air and fog, below the ground counts as on it; the result is 0
+ *  without a light. The first call after a change of planet, sky, fog or the light's size takes up
+ *  to a second. [C] */
+WLK_API WlkResult wlkEvalAmbient(WlkContext context, const double position[3],
+                                 double coefficients[WLK_AMBIENT_VALUES]);
+
 /** How often the light has been scattered. Particles do not absorb here, and light that goes
  * straight on (WlkMediumOptics::deltaFraction) was not scattered. */
 enum {

@@ -2,6 +2,7 @@
 // Everything behind a WlkContext.
 #pragma once
 
+#include <memory>
 #include <memory_resource>
 #include <optional>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "frame/resources.hpp"
 #include "frame/scene.hpp"
 #include "host_memory.hpp"
+#include "tables/sky_field.hpp"
 #include "vk/headless.hpp"
 
 namespace welkin {
@@ -26,6 +28,12 @@ struct Retired {
   ViewResources view;
   std::array<vk::Image, WLK_MAX_FIELDS + SCATTERING_FORMS> images;
   std::array<vk::Buffer, SCATTERING_FORMS> buffers;
+};
+
+// Light of all orders with what it was made of.
+struct SkyFieldEntry {
+  SkyFieldInput input;
+  SkyField field;
 };
 
 // A view of an engine's image, kept until wlkVulkanForgetImage.
@@ -56,6 +64,7 @@ struct WlkContext_T {
   std::optional<welkin::vk::Pipelines> pipelines;
 
   welkin::AirState air;
+  std::unique_ptr<welkin::SkyFieldEntry> skyField;  // of the last wlkEvalAmbient
   welkin::HandlePool<welkin::MediumState> media;
   welkin::HandlePool<welkin::VolumeState> volumes;
   welkin::HandlePool<welkin::ViewState> views;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "api/air_query.hpp"
 #include "api/context.hpp"
 #include "api/validate.hpp"
 #include "model/evaluate.hpp"
@@ -11,49 +12,6 @@
 namespace {
 
 using namespace welkin;
-
-// What a ray query needs of the scene.
-struct AirQuery {
-  AirInput air;
-  const Particle* droplets = nullptr;  // where there is fog
-  glm::dvec3 toLight{0, 1, 0};
-  double angularRadius = 0;
-  bool light = false;
-  double irradiance[3] = {0, 0, 0};
-};
-
-AirQuery queryOf(const AirState& state) {
-  AirQuery q{};
-  q.air.planetRadius = state.planet.radius;
-  q.air.airScaleHeight = 8000;
-  q.air.fogScaleHeight = 100;
-  if (state.sky) {
-    for (int i = 0; i < 3; ++i) {
-      q.air.airScattering[i] = state.sky->rayleighScattering[i];
-    }
-    q.air.airScaleHeight = state.sky->scaleHeight;
-  }
-  if (state.fog) {
-    q.air.fogExtinction = state.fog->extinction;
-    q.air.fogBaseAltitude = state.fog->baseAltitude;
-    q.air.fogScaleHeight = state.fog->scaleHeight;
-    for (int i = 0; i < 3; ++i) {
-      q.air.fogAlbedo[i] = state.fog->singleScatteringAlbedo[i];
-    }
-    q.droplets = &state.fogPhase->particle;
-  }
-  if (state.light) {
-    const WlkLight& light = *state.light;
-    q.light = true;
-    q.toLight =
-        glm::normalize(glm::dvec3(light.direction[0], light.direction[1], light.direction[2]));
-    q.angularRadius = 0.5 * light.angularDiameter;
-    for (int i = 0; i < 3; ++i) {
-      q.irradiance[i] = light.irradiance[i];
-    }
-  }
-  return q;
-}
 
 WlkRay checkedRay(const WlkRayBatch& batch, uint32_t index) {
   WlkRay ray;
@@ -122,7 +80,7 @@ WlkResult wlkEvalSky(WlkContext context, const WlkRayBatch* batch, double* radia
     for (uint32_t i = 0; i < b.count; ++i) {
       checkedRay(b, i);
     }
-    const AirQuery query = queryOf(c.air);
+    const AirQuery query = airQueryOf(c.air);
     for (uint32_t i = 0; i < b.count; ++i) {
       evaluateRay(query, c.air.planet, checkedRay(b, i),
                   radiance == nullptr ? nullptr : radiance + size_t{3} * i,
@@ -147,7 +105,7 @@ WlkResult wlkEvalLight(WlkContext context, uint32_t lightIndex, const double pos
         fail(WLK_ERROR_INVALID_ARGUMENT, 0, "position", "position holds %g", position[i]);
       }
     }
-    const AirQuery q = queryOf(c.air);
+    const AirQuery q = airQueryOf(c.air);
     const PlanetFrame frame =
         planetFrameAt(c.air.planet, glm::dvec3(position[0], position[1], position[2]));
     // As rays do: half way to the planet's centre all is opaque; at the centre nothing is defined.

@@ -14,6 +14,8 @@ struct AirInput {
   double fogBaseAltitude = 0;
   double fogScaleHeight = 100;
   double fogAlbedo[3] = {1, 1, 1};
+
+  bool operator==(const AirInput&) const = default;
 };
 
 // Once-scattered radiance per unit irradiance of the light, and optical depth, along a ray of

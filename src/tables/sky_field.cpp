@@ -34,6 +34,23 @@ SkyField::Moments SkyField::momentsAt(double altitude, double sunMu) const {
   return result;
 }
 
+double SkyField::top() const {
+  return SkyAxes(air_).top();
+}
+
+SkyColor SkyField::peakIrradianceAt(double altitude, double sunMu) const {
+  const Air airs[2] = {airFrom(air_), airFrom(attenuated_)};
+  const double visible = lightVisibility(airs[0], altitude, sunMu, lightAngularRadius_);
+  const vec3 all = lightOpticalDepth(airs[0], altitude, sunMu);
+  const vec3 less = lightOpticalDepth(airs[1], altitude, sunMu);
+  SkyColor result{};
+  for (int c = 0; c < 3; ++c) {
+    result[static_cast<size_t>(c)] =
+        visible * std::max(std::exp(-all[c]) - std::exp(-less[c]), 0.0);
+  }
+  return result;
+}
+
 SkyColor SkyField::irradianceAt(double sunMu) const {
   const Lanes lanes = irradianceIn(irradiance_, sunMu);
   return {static_cast<double>(lanes[0]), static_cast<double>(lanes[1]),

@@ -25,6 +25,8 @@ struct SkyFieldInput {
   std::array<SkyColor, 3> fogMoments{};
   SkyColor groundAlbedo{};
   double lightAngularRadius = 0.00466;
+
+  bool operator==(const SkyFieldInput&) const = default;
 };
 
 // How finely the orders are gathered. The defaults are the coarsest whose doubling changes no more
@@ -50,6 +52,11 @@ class SkyField {
   // Diffuse light on horizontal ground at sea level.
   SkyColor irradianceAt(double sunMu) const;
   int orders() const { return orders_; }
+  // Highest altitude of the moments.
+  double top() const;
+  // Of the light's irradiance, what the fog turns within its peak on the way: it is not in the
+  // moments, and comes from the light's direction as near as they can tell.
+  SkyColor peakIrradianceAt(double altitude, double sunMu) const;
 
   // Radiance, 1/sr, of light scattered or reflected at least twice that comes along a ray of
   // `distance` m (may be infinite) from the air, and from the ground if the ray ends there; without

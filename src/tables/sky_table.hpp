@@ -19,15 +19,11 @@ using Lanes = std::array<float, LANES>;
 // Light from higher up is less than e^-10 of what the air below scatters.
 constexpr double SKY_SCALE_HEIGHTS = 10;
 
-inline bool hasAir(const AirInput& air) {
-  return air.airScattering[0] + air.airScattering[1] + air.airScattering[2] > 0;
-}
-
 // Altitudes and sun cosines <-> coordinates 0..1 of the table.
 class SkyAxes {
  public:
   explicit SkyAxes(const AirInput& air)
-      : top_(SKY_SCALE_HEIGHTS * (hasAir(air) ? air.airScaleHeight : air.fogScaleHeight)),
+      : top_(SKY_SCALE_HEIGHTS * air.airScaleHeight),
         fogHeight_(air.fogScaleHeight),
         fogShare_(air.fogExtinction > 0 ? 0.5 : 0) {
     if (air.fogExtinction > 0) {

@@ -113,7 +113,7 @@ static void queries(WlkContext context) {
   WlkCapabilities capabilities;
   WlkRayBatch batch;
   WlkRay ray = {{0.0, 2.0, 0.0}, {0.6, 0.8, 0.0}, INFINITY};
-  double radiance[3], transmittance[3], irradiance[3];
+  double radiance[3], transmittance[3], irradiance[3], ambient[WLK_AMBIENT_VALUES];
   const double position[3] = {0.0, 2.0, 0.0};
 
   INIT(WLK_STRUCT_CAPABILITIES, capabilities);
@@ -130,6 +130,8 @@ static void queries(WlkContext context) {
   REQUIRE(radiance[2] > radiance[0]); /* a clear sky is blue */
   EXPECT(WLK_SUCCESS, wlkEvalLight(context, 0, position, irradiance));
   REQUIRE(countBad(irradiance, 3) == 0 && irradiance[0] > irradiance[2]);
+  EXPECT(WLK_SUCCESS, wlkEvalAmbient(context, position, ambient));
+  REQUIRE(ambient[2] > ambient[0]);
 }
 
 static void phaseQueries(WlkContext context, WlkMedium medium) {

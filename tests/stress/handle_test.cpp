@@ -209,6 +209,11 @@ TEST(Handles, NullContextsAreRefusedByEveryFunction) {
     double irradiance[3];
     return wlkEvalLight(c, 0, position, irradiance);
   });
+  all.push_back([](WlkContext c, uint64_t) {
+    const double position[3] = {0, 0, 0};
+    double coefficients[WLK_AMBIENT_VALUES];
+    return wlkEvalAmbient(c, position, coefficients);
+  });
   for (size_t i = 0; i < all.size(); ++i) {
     EXPECT_FAILS(all[i](nullptr, 1), WLK_ERROR_INVALID_HANDLE, "context") << i;
   }

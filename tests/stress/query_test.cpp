@@ -181,6 +181,41 @@ TEST(QueryLight, ExtremesAreFiniteAndNeverBrighterThanOutside) {
                "irradiance");
 }
 
+TEST(QueryAmbient, ExtremesAreFiniteAndBadPositionsRefused) {
+  const QueryScene scene;
+  std::array<double, WLK_AMBIENT_VALUES> values{};
+  for (const float extinction : {0.0f, 10.0f}) {
+    auto fog = make<WlkFog>();
+    fog.extinction = extinction;
+    ASSERT_EQ(wlkSetFog(scene.context, &fog), WLK_SUCCESS);
+    for (const double elevation_deg : {90.0, 0.0, -90.0}) {
+      scene.setSun(elevation_deg);
+      for (const double altitude : {-6.371e6, -1e4, 0.0, 1e-6, 1e3, 7.9e4}) {
+        const double position[3] = {0, altitude, 0};
+        ASSERT_EQ(wlkEvalAmbient(scene.context, position, values.data()), WLK_SUCCESS);
+        // No brighter than a white furnace around, and no harmonic above the first's bound.
+        for (const double x : values) {
+          EXPECT_TRUE(std::abs(x) <= 4) << x << " at " << altitude << ", sun " << elevation_deg;
+        }
+        EXPECT_GE(values[0], 0.0);
+      }
+    }
+  }
+  values.fill(-7);
+  const std::array<double, WLK_AMBIENT_VALUES> untouched = values;
+  for (const double bad : {NOT_A_NUMBER, INFINITE, -INFINITE, 1e10, 1e5}) {
+    const double position[3] = {0, bad, 0};
+    EXPECT_FAILS(wlkEvalAmbient(scene.context, position, values.data()), WLK_ERROR_INVALID_ARGUMENT,
+                 "position");
+    EXPECT_EQ(values, untouched);
+  }
+  const double origin[3] = {0, 0, 0};
+  EXPECT_FAILS(wlkEvalAmbient(scene.context, nullptr, values.data()), WLK_ERROR_INVALID_ARGUMENT,
+               "position");
+  EXPECT_FAILS(wlkEvalAmbient(scene.context, origin, nullptr), WLK_ERROR_INVALID_ARGUMENT,
+               "coefficients");
+}
+
 TEST(LastError, IsOfTheThreadAndNamesEveryCode) {
   EXPECT_STREQ(wlkResultName(WLK_SUCCESS), "WLK_SUCCESS");
   EXPECT_STREQ(wlkResultName(WLK_ERROR_INTERNAL), "WLK_ERROR_INTERNAL");
