@@ -52,7 +52,7 @@ WLK_API WlkResult wlkEvalLight(WlkContext context, uint32_t lightIndex, const do
  *  is sqrt(4 pi) times the first; a Lambertian surface's irradiance follows by Ramamoorthi and
  *  Hanrahan 2001. Light that droplets turn within their forward peak counts as the light's own
  *  direction. Volumes are not seen, and wlkEvalSky's radiance has the first order only. Error for
- *  suns above the horizon, of the first coefficient: 2 % in air, 8 % in fog. The point may be as
+ *  suns above the horizon, of the first coefficient: 2 % in air, 10 % in fog. The point may be as
  *  high as 10 scale heights of air and fog, below the ground counts as on it; the result is 0
  *  without a light. The first call after a change of planet, sky, fog or the light's size takes up
  *  to a second. [C] */

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "model/model.hpp"
 #include "tables/sky_air.hpp"
@@ -60,8 +62,8 @@ SkyColor SkyField::irradianceAt(double sunMu) const {
 SkyColor SkyField::radianceAlong(double altitude, double viewMu, double sunMu, double viewSun,
                                  double distance, int steps) const {
   const SkyAxes axes(air_);
-  const SkyRay plan = planRay(air_, axes, altitude, viewMu, distance, steps);
-  const FogTerms terms = fogTerms(fogMoments_);
+  const SkyRay plan = planRay(eye_, axes, altitude, viewMu, distance, steps);
+  const FogTerms terms = fogTerms(eyeMoments_);
   const double r = air_.planetRadius + altitude;
   const SkyAim aim{static_cast<float>(r), static_cast<float>(viewMu), static_cast<float>(sunMu),
                    static_cast<float>(viewSun)};
@@ -89,14 +91,11 @@ SkyColor SkyField::radianceAlong(double altitude, double viewMu, double sunMu, d
   return result;
 }
 
-// First order with the peak's light counted as unscattered, less the first order itself.
-SkyColor SkyField::higherOrdersAlong(double altitude, double viewMu, double sunMu, double viewSun,
-                                     double distance, const SkyColor& fogPhase) const {
-  SkyColor result = radianceAlong(altitude, viewMu, sunMu, viewSun, distance);
-  if (!(peak_ > 0) || !(air_.fogExtinction > 0)) {
-    return result;
-  }
-  const double ground = groundDistance(altitude, viewMu, air_.planetRadius);
+SkyField::Once SkyField::onceAlong(const AirInput& input, double altitude, double viewMu,
+                                   double sunMu, double viewSun, double distance,
+                                   const SkyColor& phase) const {
+  const Air air = airFrom(input);
+  const double ground = groundDistance(altitude, viewMu, air.planetRadius);
   const bool toGround = ground >= 0 && ground <= distance;
   const double reach = toGround ? ground : distance;
   AirRay ray;
@@ -104,30 +103,61 @@ SkyColor SkyField::higherOrdersAlong(double altitude, double viewMu, double sunM
   ray.viewMu = viewMu;
   ray.sunMu = sunMu;
   ray.viewSun = viewSun;
-  vec3 phase;
+  const AirResult along = airAlongRay(air, ray, reach, rayleighPhase(1 - viewSun),
+                                      vec3(phase[0], phase[1], phase[2]), lightAngularRadius_);
+  Once once{};
+  vec3 depth(0.0);
+  double lit = 0;
+  if (toGround) {
+    const double foot = std::clamp(
+        ((air.planetRadius + altitude) * sunMu + reach * viewSun) / air.planetRadius, -1.0, 1.0);
+    depth = lightOpticalDepth(air, 0.0, foot);
+    lit = std::max(foot, 0.0) * lightVisibility(air, 0.0, foot, lightAngularRadius_);
+  }
+  for (size_t c = 0; c < 3; ++c) {
+    const int k = static_cast<int>(c);
+    once.depth[c] = along.opticalDepth[k];
+    once.radiance[c] = along.radiance[k] +
+                       groundAlbedo_[c] / PI * lit * std::exp(-depth[k] - along.opticalDepth[k]);
+  }
+  return once;
+}
+
+// Besides the moments: the first order with the peak's light counted as unscattered, less the first
+// order itself; and what comes through the peak from beyond the ray's end.
+SkyColor SkyField::higherOrdersAlong(double altitude, double viewMu, double sunMu, double viewSun,
+                                     double distance, const SkyColor& fogPhase) const {
+  SkyColor result = radianceAlong(altitude, viewMu, sunMu, viewSun, distance);
+  if (!(peak_ > 0) || !(air_.fogExtinction > 0)) {
+    return result;
+  }
+  SkyColor phase{};
   for (size_t c = 0; c < 3; ++c) {
     // In its own direction the peak is what is left out.
     const double top = (1 + 3 * fogMoments_[0][c] + 5 * fogMoments_[1][c]) / (4 * PI);
-    phase[static_cast<int>(c)] = std::min(fogPhase[c] / (1 - peak_), top);
+    phase[c] = std::min(fogPhase[c] / (1 - eyePeak_), top);
   }
-  const Air airs[2] = {airFrom(air_), airFrom(attenuated_)};
-  double light[2][3];
-  for (size_t i = 0; i < 2; ++i) {
-    const AirResult along =
-        airAlongRay(airs[i], ray, reach, rayleighPhase(1 - viewSun), phase, lightAngularRadius_);
-    const double foot = std::clamp(
-        ((air_.planetRadius + altitude) * sunMu + reach * viewSun) / air_.planetRadius, -1.0, 1.0);
-    const vec3 depth = lightOpticalDepth(airs[i], 0.0, foot);
-    const double lit =
-        toGround ? std::max(foot, 0.0) * lightVisibility(airs[i], 0.0, foot, lightAngularRadius_)
-                 : 0.0;
-    for (int c = 0; c < 3; ++c) {
-      const double reflected = groundAlbedo_[static_cast<size_t>(c)] / PI * lit;
-      light[i][c] = along.radiance[c] + reflected * std::exp(-depth[c] - along.opticalDepth[c]);
-    }
-  }
+  const Once bright = onceAlong(eye_, altitude, viewMu, sunMu, viewSun, distance, phase);
+  const Once dim = onceAlong(attenuated_, altitude, viewMu, sunMu, viewSun, distance, phase);
   for (size_t c = 0; c < 3; ++c) {
-    result[c] += std::max(light[0][c] - light[1][c], 0.0);
+    result[c] += std::max(bright.radiance[c] - dim.radiance[c], 0.0);
+  }
+  const double radius = air_.planetRadius;
+  const double ground = groundDistance(altitude, viewMu, radius);
+  const bool endsInAir = !(ground >= 0 && ground <= distance) && distance < 1e7;
+  if (endsInAir) {
+    const double there = altitudeAlongRay(altitude, viewMu, radius, distance);
+    const double r = radius + altitude;
+    const double scale = 1 / (radius + there);
+    const double view = std::clamp((r * viewMu + distance) * scale, -1.0, 1.0);
+    const double sun = std::clamp((r * sunMu + distance * viewSun) * scale, -1.0, 1.0);
+    constexpr double INF = std::numeric_limits<double>::infinity();
+    const SkyColor more = radianceAlong(there, view, sun, viewSun, INF);
+    const Once first = onceAlong(eye_, there, view, sun, viewSun, INF, phase);
+    for (size_t c = 0; c < 3; ++c) {
+      const double through = std::max(std::exp(-bright.depth[c]) - std::exp(-dim.depth[c]), 0.0);
+      result[c] += through * (more[c] + first.radiance[c]);
+    }
   }
   return result;
 }

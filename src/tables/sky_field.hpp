@@ -59,23 +59,36 @@ class SkyField {
   SkyColor peakIrradianceAt(double altitude, double sunMu) const;
 
   // Radiance, 1/sr, of light scattered or reflected at least twice that comes along a ray of
-  // `distance` m (may be infinite) from the air, and from the ground if the ray ends there; without
-  // what the fog turned only within its forward peak but once.
-  SkyColor radianceAlong(double altitude, double viewMu, double sunMu, double viewSun,
-                         double distance, int steps = 48) const;
-  // The same with all light: what passed the fog within its peak is lit, or seen, as if it had not
-  // been scattered. fogPhase: RGB, 1/sr, at the ray's angle with the light.
+  // `distance` m (may be infinite), and from the ground if the ray ends there. fogPhase: RGB, 1/sr,
+  // at the ray's angle with the light.
   SkyColor higherOrdersAlong(double altitude, double viewMu, double sunMu, double viewSun,
                              double distance, const SkyColor& fogPhase) const;
+  // The same from the moments alone: without light that the fog turned only within its peak but
+  // once, neither on its way to the ray nor on the ray.
+  SkyColor radianceAlong(double altitude, double viewMu, double sunMu, double viewSun,
+                         double distance, int steps = 48) const;
 
  private:
   friend SkyField solveSkyField(const SkyFieldInput& input, const SkyFieldSteps& steps);
 
-  AirInput air_;         // without the peak
-  AirInput attenuated_;  // the same scattering, attenuated by all of the fog
+  // First order and light of the ground along a ray that ends at `distance`, in air of which
+  // `peak` is taken off the fog's phase function.
+  struct Once {
+    SkyColor radiance;
+    SkyColor depth;
+  };
+  Once onceAlong(const AirInput& air, double altitude, double viewMu, double sunMu, double viewSun,
+                 double distance, const SkyColor& phase) const;
+
+  AirInput air_;  // without the peak
+  // Along a ray that is looked at, only a part of the peak counts as unscattered: eyeShare().
+  AirInput eye_;
+  AirInput attenuated_;  // scatters like eye_, attenuates by all of the fog
   double lightAngularRadius_ = 0;
   double peak_ = 0;
-  std::array<SkyColor, 2> fogMoments_{};
+  double eyePeak_ = 0;
+  std::array<SkyColor, 2> fogMoments_{};  // without the peak
+  std::array<SkyColor, 2> eyeMoments_{};
   SkyColor groundAlbedo_{};
   int orders_ = 0;
   std::vector<float> moments_;     // [altitude][sun][moment][channel]

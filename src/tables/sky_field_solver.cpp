@@ -236,34 +236,50 @@ double energy(const std::vector<float>& moments) {
 
 }  // namespace
 
-SkyField solveSkyField(const SkyFieldInput& input, const SkyFieldSteps& steps) {
-  SkyField field;
-  field.air_ = input.air;
-  field.groundAlbedo_ = input.groundAlbedo;
-  // One peak for all colours: they differ by a few per cent, the extinction is grey.
-  double peak = 0;
-  for (const double third : input.fogMoments[2]) {
-    peak += std::clamp(third, 0.0, 0.99) / 3;
-  }
+namespace {
+
+// Of the fog's forward peak, as much as counts as unscattered along a ray that is looked at. The
+// third moment belongs to a lobe tens of degrees wide, and thin haze is a band of a degree or two
+// at the horizon: light that is turned by more than that leaves it. By the vertical optical depth.
+// Chosen among 0 to 1 on random rays in Henyey-Greenstein 0.76 and 0.87, depths 0.012 to 0.5.
+double eyeShare(const AirInput& air) {
+  return std::min(1.0, std::pow(air.fogExtinction * air.fogScaleHeight, 0.3));
+}
+
+// What is left of fog without the part `peak` of its scattering.
+void takeOff(double peak, const SkyFieldInput& input, AirInput& air,
+             std::array<SkyColor, 2>& moments) {
   double albedo = 0;
   for (const double one : input.air.fogAlbedo) {
     albedo += one / 3;
   }
-  field.air_.fogExtinction *= 1 - albedo * peak;
+  air = input.air;
+  air.fogExtinction *= 1 - albedo * peak;
   for (size_t c = 0; c < 3; ++c) {
-    field.air_.fogAlbedo[c] =
-        std::min(input.air.fogAlbedo[c] * (1 - peak) / (1 - albedo * peak), 1.0);
+    air.fogAlbedo[c] = std::min(input.air.fogAlbedo[c] * (1 - peak) / (1 - albedo * peak), 1.0);
     for (size_t l = 0; l < 2; ++l) {
-      field.fogMoments_[l][c] = (input.fogMoments[l][c] - peak) / (1 - peak);
+      moments[l][c] = (input.fogMoments[l][c] - peak) / (1 - peak);
     }
   }
-  field.attenuated_ = field.air_;
-  field.attenuated_.fogExtinction = input.air.fogExtinction;
-  for (size_t c = 0; c < 3; ++c) {
-    field.attenuated_.fogAlbedo[c] = input.air.fogAlbedo[c] * (1 - peak);
-  }
+}
+
+}  // namespace
+
+SkyField solveSkyField(const SkyFieldInput& input, const SkyFieldSteps& steps) {
+  SkyField field;
+  field.groundAlbedo_ = input.groundAlbedo;
   field.lightAngularRadius_ = input.lightAngularRadius;
-  field.peak_ = peak;
+  // One peak for all colours: they differ by a few per cent, the extinction is grey.
+  for (const double third : input.fogMoments[2]) {
+    field.peak_ += std::clamp(third, 0.0, 0.99) / 3;
+  }
+  field.eyePeak_ = eyeShare(input.air) * field.peak_;
+  takeOff(field.peak_, input, field.air_, field.fogMoments_);
+  takeOff(field.eyePeak_, input, field.eye_, field.eyeMoments_);
+  field.attenuated_ = input.air;
+  for (double& albedo : field.attenuated_.fogAlbedo) {
+    albedo *= 1 - field.eyePeak_;
+  }
   const Solver solver(input, field.air_, field.fogMoments_, steps);
   Order order = solver.gather(nullptr);
   field.moments_ = order.moments;

@@ -162,8 +162,8 @@ TEST(Ambient, ClearSkyAgreesWithMonteCarlo) {
 }
 
 TEST(Ambient, FogAgreesWithMonteCarlo) {
-  // Of welkin/query.h. Two Legendre terms for what the sun lights first; measured 0.07.
-  constexpr double TOLERANCE = 0.08;
+  // Of welkin/query.h. Two Legendre terms for what the sun lights first; measured 0.09.
+  constexpr double TOLERANCE = 0.10;
   const Context context;
   const WlkSky sky = context.setSky();
   const std::array<double, 3> sun{0.36, 0.48, 0.8};
