@@ -253,7 +253,7 @@ void printTable(const Atmosphere& atmosphere, const Group& group, const Errors& 
   std::fflush(stdout);
 }
 
-int run(const std::string& path, uint32_t rays, uint64_t paths) {
+int run(const std::string& path, uint32_t rays, uint64_t paths, uint64_t seed) {
   std::FILE* file = std::fopen(path.c_str(), "w");
   if (file == nullptr) {
     std::fprintf(stderr, "%s: cannot write\n", path.c_str());
@@ -274,7 +274,7 @@ int run(const std::string& path, uint32_t rays, uint64_t paths) {
       Errors errors;
       for (uint32_t i = 0; i < rays; ++i) {
         // The same rays in both atmospheres.
-        rt::Random random(1, static_cast<uint64_t>(&group - GROUPS), i, 0);
+        rt::Random random(seed, static_cast<uint64_t>(&group - GROUPS), i, 0);
         const Ray ray = drawRay(group, solved.input.air.planetRadius, random);
         const Truth truth = truthFor(solved.input, ray, paths, i + 1);
         writeRay(file, atmosphere, group, i, ray, truth, solved, errors);
@@ -293,13 +293,15 @@ int main(int argc, char** argv) {
   std::string path;
   uint32_t rays = 32;
   uint64_t paths = 60000;
+  uint64_t seed = 1;
   app.add_option("out", path, "CSV file to write")->required();
   app.add_option("--rays", rays, "rays per atmosphere and group")->check(CLI::Range(1, 100000));
   app.add_option("--paths", paths, "Monte Carlo paths per ray and channel")
       ->check(CLI::Range(2, 100000000));
+  app.add_option("--seed", seed, "of the rays, default 1");
   CLI11_PARSE(app, argc, argv);
   try {
-    return run(path, rays, paths);
+    return run(path, rays, paths, seed);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
