@@ -278,8 +278,8 @@ typedef struct WlkErrorEstimate {
 
 /** Estimates the error of the view's next frame from the scene, the camera and the quality: rules
  *  fitted to measurements (docs/accuracy-and-performance.md), right within a factor of 2 for most
- *  scenes; the part of the slabs within 4. A volume in an engine's image counts as filled with
- * value 1, uploads by parts as if the rest kept its mean. Renders nothing. [C] */
+ *  scenes, the part of the slabs within 4. A volume in an engine's image counts as filled with 1,
+ *  uploads by parts as if the rest kept its mean. Renders nothing. [C] */
 WLK_API WlkResult wlkGetErrorEstimate(WlkContext context, WlkView view, WlkErrorEstimate* estimate);
 
 /** "WLK_APPROXIMATION_SKY" and so on. [F] */

@@ -50,6 +50,7 @@ std::vector<Zenith> zenithNodes(double horizon, int count) {
   }
   return nodes;
 }
+
 // One order of scattering at every node.
 struct Order {
   std::vector<float> moments;
@@ -234,16 +235,14 @@ double energy(const std::vector<float>& moments) {
   return sum;
 }
 
-}  // namespace
-
-namespace {
-
 // Of the fog's forward peak, as much as counts as unscattered along a ray that is looked at. The
 // third moment belongs to a lobe tens of degrees wide, and thin haze is a band of a degree or two
 // at the horizon: light that is turned by more than that leaves it. By the vertical optical depth.
 // Chosen among 0 to 1 on random rays in Henyey-Greenstein 0.76 and 0.87, depths 0.012 to 0.5.
 double eyeShare(const AirInput& air) {
-  return std::min(1.0, std::pow(air.fogExtinction * air.fogScaleHeight, 0.3));
+  const double base = std::min(air.fogBaseAltitude / air.fogScaleHeight, 30.0);
+  const double depth = air.fogExtinction * air.fogScaleHeight * std::exp(base);
+  return std::min(1.0, std::pow(depth, 0.3));
 }
 
 // What is left of fog without the part `peak` of its scattering.
