@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "model/evaluate.hpp"
 
+#include "model/air_input.hpp"
 #include "model/model.hpp"
 
 namespace welkin {
@@ -18,18 +19,6 @@ void store(const vec3& v, double out[3]) {
   out[2] = v.z;
 }
 
-Air airOf(const AirInput& input) {
-  Air air;
-  air.planetRadius = input.planetRadius;
-  air.airScattering = vectorOf(input.airScattering);
-  air.airScaleHeight = input.airScaleHeight;
-  air.fogExtinction = input.fogExtinction;
-  air.fogBaseAltitude = input.fogBaseAltitude;
-  air.fogScaleHeight = input.fogScaleHeight;
-  air.fogAlbedo = vectorOf(input.fogAlbedo);
-  return air;
-}
-
 }  // namespace
 
 void evalAirRay(const AirInput& air, double altitude, double viewMu, double sunMu, double viewSun,
@@ -40,7 +29,7 @@ void evalAirRay(const AirInput& air, double altitude, double viewMu, double sunM
   ray.viewMu = viewMu;
   ray.sunMu = sunMu;
   ray.viewSun = viewSun;
-  const AirResult result = airAlongRay(airOf(air), ray, distance, rayleighPhase(1.0 - viewSun),
+  const AirResult result = airAlongRay(airFrom(air), ray, distance, rayleighPhase(1.0 - viewSun),
                                        vectorOf(fogPhase), angularRadius);
   store(result.radiance, radiance);
   store(result.opticalDepth, opticalDepth);
@@ -48,7 +37,7 @@ void evalAirRay(const AirInput& air, double altitude, double viewMu, double sunM
 
 void evalLightDepth(const AirInput& air, double altitude, double lightMu, double angularRadius,
                     double opticalDepth[3], double* visibility) {
-  const Air input = airOf(air);
+  const Air input = airFrom(air);
   store(lightOpticalDepth(input, altitude, lightMu), opticalDepth);
   *visibility = lightVisibility(input, altitude, lightMu, angularRadius);
 }

@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "model/air_input.hpp"
 #include "model/model.hpp"
-#include "tables/sky_air.hpp"
 #include "tables/sky_ray.hpp"
 
 namespace welkin {

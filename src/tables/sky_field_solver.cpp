@@ -2,8 +2,8 @@
 // Successive orders of scattering for SkyField.
 #include <limits>
 
+#include "model/air_input.hpp"
 #include "model/model.hpp"
-#include "tables/sky_air.hpp"
 #include "tables/sky_field.hpp"
 #include "tables/sky_ray.hpp"
 

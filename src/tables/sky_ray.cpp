@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tables/sky_ray.hpp"
 
+#include "model/air_input.hpp"
 #include "model/model.hpp"
-#include "tables/sky_air.hpp"
 
 namespace welkin {
 namespace {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The model's air of an AirInput. Include after model/model.hpp, from .cpp files only.
+// The model's air of an AirInput. From .cpp files only, like the model.
 #pragma once
 
 #include "model/evaluate.hpp"
+#include "model/model.hpp"
 
 namespace welkin {
 namespace {
