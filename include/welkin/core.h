@@ -106,6 +106,7 @@ typedef enum WlkStructType {
   WLK_STRUCT_ERROR_ESTIMATE = 44,
   WLK_STRUCT_RAY_BATCH = 50,
   WLK_STRUCT_PHASE_QUERY = 51,
+  WLK_STRUCT_SKY_MAP_QUERY = 52,
   WLK_STRUCT_VULKAN_DEVICE_INFO = 1000,
   WLK_STRUCT_VULKAN_REQUIREMENTS = 1001,
   WLK_STRUCT_VULKAN_IMAGE = 1002,
@@ -161,8 +162,8 @@ typedef struct WlkView {
 } WlkView;
 
 /** Host allocator; all three null means malloc and free. Phase functions of media and fog (0.2 MB
- *  each) and the work space of their computation come from the C++ runtime instead, and are not in
- *  WlkFrameStats::hostMemory. */
+ *  each), the table of skylight (0.2 MB) and the work space of their computation come from the C++
+ *  runtime instead, and are not in WlkFrameStats::hostMemory. */
 typedef struct WlkAllocator {
   void* user;
   /** Returns `size` bytes aligned to `alignment` (a power of two), or null. */

@@ -17,6 +17,8 @@ struct SkyOptions {
   std::string out;
   std::string scene;
   std::vector<std::string> assignments;
+  uint32_t maxOrder = 0;
+  bool orders = false;
 };
 
 constexpr const char* SKY_HELP = R"(
@@ -29,7 +31,9 @@ Columns of IN, named by its first line, or in this order if the first line holds
     length           m, > 0, "inf" allowed; the ground ends the ray in any case
 Columns of OUT: those of IN, then
   radiance_r, _g, _b        in-scattered radiance (no sun disk, no ground), unit of the lights'
-                            irradiance per steradian
+                            irradiance per steradian; all orders of scattering, or with
+                            --max-order 1 light that is scattered once
+  first_r, _g, _b           with --orders: light that is scattered once
   transmittance_r, _g, _b   [0, 1]
 r, g, b are 680, 550, 440 nm. Without --scene: clear air, one light of irradiance 1 overhead, no
 fog. --set changes either, for example --set lights.0.elevation_deg=5 --set fog.extinction=0.001)";
@@ -114,6 +118,12 @@ host::Scene readScene(const SkyOptions& options) {
   return host::parseScene(root, "--set");
 }
 
+// Three columns of the output, by ray.
+struct SkyColumns {
+  std::string name;
+  std::vector<double> values;
+};
+
 void run(const SkyOptions& options) {
   const host::Scene scene = readScene(options);
   const host::CsvTable table = host::readCsv(options.in, {vectorColumns(), angleColumns()});
@@ -130,26 +140,34 @@ void run(const SkyOptions& options) {
   batch.count = static_cast<uint32_t>(rays.size());
   batch.stride = sizeof(WlkRay);
   batch.rays = rays.data();
-  std::vector<double> radiance(rays.size() * 3);
-  std::vector<double> transmittance(rays.size() * 3);
-  if (!rays.empty()) {
-    host::check(wlkEvalSky(context.get(), &batch, radiance.data(), transmittance.data()),
-                options.in, "");
+  std::vector<SkyColumns> results{{"radiance", {}}};
+  if (options.orders) {
+    results.push_back({"first", {}});
   }
+  std::vector<double> transmittance(rays.size() * 3);
+  for (SkyColumns& result : results) {
+    result.values.resize(rays.size() * 3);
+    batch.maxOrder = result.name == "first" ? 1 : options.maxOrder;
+    if (!rays.empty()) {
+      host::check(wlkEvalSky(context.get(), &batch, result.values.data(), transmittance.data()),
+                  options.in, "");
+    }
+  }
+  results.push_back({"transmittance", std::move(transmittance)});
   std::vector<std::string> columns = table.columns;
-  columns.insert(columns.end(), {"radiance_r", "radiance_g", "radiance_b", "transmittance_r",
-                                 "transmittance_g", "transmittance_b"});
+  for (const SkyColumns& result : results) {
+    for (const char* const channel : {"_r", "_g", "_b"}) {
+      columns.push_back(result.name + channel);
+    }
+  }
   std::vector<double> values;
   values.reserve(rays.size() * columns.size());
   for (size_t row = 0; row < rays.size(); ++row) {
     for (size_t i = 0; i < table.columns.size(); ++i) {
       values.push_back(table.at(row, static_cast<int>(i)));
     }
-    for (size_t i = 0; i < 3; ++i) {
-      values.push_back(radiance[row * 3 + i]);
-    }
-    for (size_t i = 0; i < 3; ++i) {
-      values.push_back(transmittance[row * 3 + i]);
+    for (const SkyColumns& result : results) {
+      values.insert(values.end(), &result.values[row * 3], &result.values[row * 3] + 3);
     }
   }
   host::writeCsv(options.out, columns, values);
@@ -168,6 +186,11 @@ void addSky(CLI::App& app) {
   command->add_option("--set", options->assignments, "key.path=value, over the scene")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      ->add_option("--max-order", options->maxOrder,
+                   "Highest order of scattering: 0 for all (default), 1 for the first alone")
+      ->check(CLI::IsMember({0U, 1U}));
+  command->add_flag("--orders", options->orders, "Also columns of the first order");
   command->callback([options] { run(*options); });
 }
 

@@ -18,6 +18,8 @@ const char* passKind(uint32_t pass) {
       return "light_slices";
     case WLK_PASS_EYE_SLICES:
       return "eye_slices";
+    case WLK_PASS_SKY_TABLE:
+      return "sky_table";
     case WLK_PASS_COMPOSITE:
       return "composite";
     default:

@@ -73,6 +73,9 @@ inline constexpr WlkStructType structType(const WlkRayBatch&) {
 inline constexpr WlkStructType structType(const WlkPhaseQuery&) {
   return WLK_STRUCT_PHASE_QUERY;
 }
+inline constexpr WlkStructType structType(const WlkSkyMapQuery&) {
+  return WLK_STRUCT_SKY_MAP_QUERY;
+}
 
 /// Throws unless `result` is a success. A value that the library rejects is the input's fault
 /// (InputError: `file`: `key`.<field>: message); everything else is a HostError.

@@ -18,11 +18,6 @@ struct AirAt {
   vec3 light;
 };
 
-vec3 sourceOf(vec3 radiance, vec3 depth) {
-  vec3 opacity = vec3(oneMinusExp(depth.x), oneMinusExp(depth.y), oneMinusExp(depth.z));
-  return radiance / max(opacity, vec3(1.0e-20f));
-}
-
 vec3 lightAt(Air air, AirRay ray) {
   vec3 depth = lightOpticalDepth(air, ray.altitude, ray.sunMu);
   float visible = lightVisibility(air, ray.altitude, ray.sunMu, frame.light.w);
@@ -34,11 +29,31 @@ AirNodes airNodes(vec3 direction, float begin, float end) {
   nodes.begin = begin;
   float step_ = max(end - begin, 1.0e-3f) / float(AIR_NODES - 1);
   nodes.scale = 1.0f / step_;
-  if (AIR_ENABLED || FOG_ENABLED) {
+  if (ALL_LIGHT) {
+    Air air = airOf(frame);
+    AirRay ray = airRayOf(frame, direction);
+    AirPath path = clipToAir(air, ray, end);
+    AirPoint first = airPoint(air, path, 0.0f);
+    AirPoint lowest = airPoint(air, path, clamp(path.lowest, 0.0f, path.reach));
+    SkyTableRay whole = skyTableRay(ray);
+    for (int i = 0; i < AIR_NODES; ++i) {
+      float t = begin + float(i) * step_;
+      AirPoint there = airPoint(air, path, min(t, path.reach));
+      nodes.depth[i] = depthOfColumns(air, columnsTo(air, path, first, lowest, there));
+      float share = oneMinusExp(nodes.depth[i].y) / max(whole.total, 1.0e-30f);
+      nodes.source[i] = skyTableSource(whole.direction, share, ray.viewSun) *
+                        frame.lightIrradiance.xyz;
+      nodes.light[i] = lightAt(air, advanceRay(air, ray, t));
+    }
+  } else if (AIR_ENABLED || FOG_ENABLED) {
     Air air = airOf(frame);
     AirRay ray = airRayOf(frame, direction);
     float airPhase = rayleighPhase(1.0f - ray.viewSun);
     vec3 droplets = FOG_ENABLED ? fogPhaseOf(frame, direction) : vec3(0.0f);
+    SkyTableRay whole;
+    if (MULTIPLE_ENABLED) {
+      whole = skyTableRay(ray);
+    }
     AirResult sum;
     sum.radiance = vec3(0.0f);
     sum.opticalDepth = vec3(0.0f);
@@ -50,8 +65,15 @@ AirNodes airNodes(vec3 direction, float begin, float end) {
       sum.opticalDepth += part.opticalDepth;
       ray = advanceRay(air, ray, length_);
       nodes.depth[i] = sum.opticalDepth;
-      nodes.source[i] = LIGHT_ENABLED
-          ? sourceOf(sum.radiance * frame.lightIrradiance.xyz, sum.opticalDepth) : vec3(0.0f);
+      nodes.source[i] = vec3(0.0f);
+      if (LIGHT_ENABLED) {
+        vec3 opacity = opacityOf(sum.opticalDepth);
+        vec3 source = sum.radiance / max(opacity, vec3(1.0e-20f));
+        if (MULTIPLE_ENABLED) {
+          source += skySourceAt(whole, opacity, droplets);
+        }
+        nodes.source[i] = source * frame.lightIrradiance.xyz;
+      }
       nodes.light[i] = LIGHT_ENABLED ? lightAt(air, ray) : vec3(0.0f);
       length_ = step_;
       i += 1;

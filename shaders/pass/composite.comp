@@ -7,8 +7,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 7) const bool SEPARATE = false;
-layout(constant_id = 8) const bool COLOR_INPUT = true;  // may be the target itself
-layout(constant_id = 9) const bool ROUND_TO_HALF = false;
+layout(constant_id = 8) const bool ROUND_TO_HALF = false;
 
 layout(set = 0, binding = 3) uniform sampler2D colorInput;
 layout(set = 0, binding = 4) uniform writeonly image2D target0;
@@ -39,10 +38,11 @@ void main() {
     imageStore(target0, ivec2(pixel), vec4(rounded(guarded(radiance)), 1.0f));
     imageStore(target1, ivec2(pixel), vec4(rounded(guarded(layer.transmittance)), 1.0f));
   } else {
-    vec4 color = vec4(0.0f, 0.0f, 0.0f, 1.0f);
-    if (COLOR_INPUT) {
-      color = texelFetch(colorInput, ivec2(pixel), 0);
-    }
+    // A constant would double the pipelines: without an input one texel of nothing is read. The
+    // input may be the target itself.
+    float given = frame.output_.w;
+    vec4 input_ = texelFetch(colorInput, ivec2(vec2(pixel) * given), 0);
+    vec4 color = vec4(input_.xyz * given, given > 0.0f ? input_.w : 1.0f);
     vec3 sum = color.xyz * layer.transmittance + radiance;
     countNonFinite(sum, layer.transmittance);
     imageStore(target0, ivec2(pixel), vec4(rounded(guarded(sum)), color.w));

@@ -13,6 +13,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 3) const uint FIELD_COUNT = 1;
 layout(constant_id = 4) const bool FORWARD_SCATTERING = true;
 layout(constant_id = 5) const bool DEPTH_ENABLED = true;
+layout(constant_id = 6) const bool MULTIPLE_ENABLED = true;
+// Clear air: all of its light comes from the table.
+layout(constant_id = 7) const bool ALL_LIGHT = false;
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
 layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volume; };
@@ -26,10 +29,15 @@ layout(set = 0, binding = 9) uniform sampler2D depthImage;
 layout(set = 0, binding = 10, std430) buffer FrameState { vec4 frameState[]; };
 layout(set = 0, binding = 11, std430) buffer VolumeState { vec4 volumeState[]; };
 layout(set = 0, binding = 12, std430) readonly buffer FogCurve { vec4 fogCurve[]; };
+layout(set = 0, binding = 13) uniform sampler3D skyTable;
+layout(set = 0, binding = 14) uniform sampler3D skyPeak;
 layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "ray.glsl"
+#include "fog_curve.glsl"
 #include "fields.glsl"
+#include "air_column.glsl"
+#include "sky_lookup.glsl"
 #include "air_nodes.glsl"
 
 const float RAY_ENDS = 1.0e-6f;    // transmittance at which a ray ends; bounds its relative error

@@ -46,13 +46,6 @@ AirRay airRayOf(FrameUniforms frame, vec3 direction) {
   return ray;
 }
 
-// Fog's phase function, RGB in 1/sr: the curve's nodes stand at equal steps of phaseCoordinate.
-vec3 fogPhaseOf(FrameUniforms frame, vec3 direction) {
-  float x = phaseCoordinate(oneMinusCosine(direction, frame.light.xyz)) * float(CURVE_NODES - 1);
-  int i = min(int(x), CURVE_NODES - 2);
-  return mix(fogCurve[i].xyz, fogCurve[i + 1].xyz, x - float(i));
-}
-
 // The same ray seen from a point `t` further on.
 AirRay advanceRay(Air air, AirRay ray, float t) {
   AirRay next;

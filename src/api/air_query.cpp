@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "api/air_query.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "api/validate.hpp"
+
 namespace welkin {
 
 AirQuery airQueryOf(const AirState& state) {
@@ -34,6 +39,41 @@ AirQuery airQueryOf(const AirState& state) {
     }
   }
   return q;
+}
+
+glm::dvec3 checkedPoint(const double position[3], const char* argument) {
+  checkPointer(position, argument);
+  for (int i = 0; i < 3; ++i) {
+    if (!(std::abs(position[i]) <= 1e9)) {
+      fail(WLK_ERROR_INVALID_ARGUMENT, 0, argument, "%s holds %g, expected [-1e9, 1e9]", argument,
+           position[i]);
+    }
+  }
+  return {position[0], position[1], position[2]};
+}
+
+glm::dvec3 checkedDirection(const double direction[3], const char* argument) {
+  checkPointer(direction, argument);
+  const glm::dvec3 v(direction[0], direction[1], direction[2]);
+  const double length = glm::length(v);
+  if (!(std::abs(length - 1) <= 1e-3)) {
+    fail(WLK_ERROR_INVALID_ARGUMENT, 0, argument, "%s has the length %g, expected 1", argument,
+         length);
+  }
+  return v / length;
+}
+
+glm::dvec3 lightIrradiance(const AirQuery& q, const PlanetFrame& at) {
+  // As rays do: half way to the planet's centre all is opaque; at the centre nothing is defined.
+  const double altitude = std::max(at.altitude, -0.5 * q.air.planetRadius);
+  double depth[3];
+  double visible = 0;
+  evalLightDepth(q.air, altitude, glm::dot(q.toLight, at.up), q.angularRadius, depth, &visible);
+  glm::dvec3 result(0);
+  for (int i = 0; i < 3; ++i) {
+    result[i] = q.irradiance[i] * std::exp(-depth[i]) * visible;
+  }
+  return result;
 }
 
 }  // namespace welkin

@@ -4,6 +4,7 @@
 
 #include <glm/glm.hpp>
 
+#include "frame/plan.hpp"
 #include "frame/uniforms.hpp"
 #include "model/evaluate.hpp"
 #include "particles/medium.hpp"
@@ -21,5 +22,13 @@ struct AirQuery {
 };
 
 AirQuery airQueryOf(const AirState& state);
+
+// Fails, naming `argument`, unless all three are in [-1e9, 1e9].
+glm::dvec3 checkedPoint(const double position[3], const char* argument);
+// Fails unless the length is 1 within 1e-3; normalised.
+glm::dvec3 checkedDirection(const double direction[3], const char* argument);
+
+// Irradiance of the light on a surface facing it, RGB.
+glm::dvec3 lightIrradiance(const AirQuery& query, const PlanetFrame& at);
 
 }  // namespace welkin

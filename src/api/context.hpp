@@ -15,6 +15,7 @@
 #include "frame/scene.hpp"
 #include "host_memory.hpp"
 #include "tables/sky_field.hpp"
+#include "tables/sky_field_solver.hpp"
 #include "vk/headless.hpp"
 
 namespace welkin {
@@ -33,7 +34,22 @@ struct Retired {
 // Light of all orders with what it was made of.
 struct SkyFieldEntry {
   SkyFieldInput input;
+  std::shared_ptr<const FogPhaseState> fogPhase;  // whose moments are in `input`
   SkyField field;
+};
+
+// What the moments on the GPU were made of.
+struct SkyLightSource {
+  AirInput air;
+  std::array<float, 3> groundAlbedo{};
+  double angularRadius = -1;
+  std::shared_ptr<const FogPhaseState> fogPhase;
+};
+
+// The moments of another air, solved a few rows per frame.
+struct SkyLightWork {
+  SkyLightSource source;
+  SkyFieldSolver solver;
 };
 
 // A view of an engine's image, kept until wlkVulkanForgetImage.
@@ -64,7 +80,10 @@ struct WlkContext_T {
   std::optional<welkin::vk::Pipelines> pipelines;
 
   welkin::AirState air;
-  std::unique_ptr<welkin::SkyFieldEntry> skyField;  // of the last wlkEvalAmbient
+  std::unique_ptr<welkin::SkyFieldEntry> skyField;  // of the last air that was asked for
+  welkin::SkyLightState skyLight;
+  welkin::SkyLightSource skyLightSource;
+  std::unique_ptr<welkin::SkyLightWork> skyLightWork;  // for an air that has changed
   welkin::HandlePool<welkin::MediumState> media;
   welkin::HandlePool<welkin::VolumeState> volumes;
   welkin::HandlePool<welkin::ViewState> views;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The defaults that the header documents, in one place.
+#include <algorithm>
 #include <cstring>
 
 #include "api/error.hpp"
@@ -18,15 +19,17 @@ T blank(uint32_t sType) {
   return value;
 }
 
+// A caller's header may be the one that introduced the structure, with `firstSize` (0: ours).
 template <typename T>
-void write(const T& value, uint32_t structSize, void* structure) {
-  if (structSize < sizeof(T)) {
+void write(const T& value, uint32_t structSize, void* structure, uint32_t firstSize = 0) {
+  const bool ofFirst = firstSize > 0 && structSize == firstSize;
+  if (structSize < sizeof(T) && !ofFirst) {
     fail(WLK_ERROR_INVALID_ARGUMENT, value.sType, "structSize",
          "%s::structSize is %u, expected at least %zu", structName(value.sType), structSize,
          sizeof(T));
   }
   std::memset(structure, 0, structSize);
-  std::memcpy(structure, &value, sizeof value);
+  std::memcpy(structure, &value, std::min<size_t>(structSize, sizeof value));
   std::memcpy(static_cast<char*>(structure) + sizeof(uint32_t), &structSize, sizeof structSize);
 }
 
@@ -130,6 +133,12 @@ WlkRayBatch rays() {
   return r;
 }
 
+WlkSkyMapQuery skyMap() {
+  auto q = blank<WlkSkyMapQuery>(WLK_STRUCT_SKY_MAP_QUERY);
+  q.size = 32;
+  return q;
+}
+
 WlkPhaseQuery phaseQuery() {
   auto q = blank<WlkPhaseQuery>(WLK_STRUCT_PHASE_QUERY);
   q.order = 1;
@@ -180,7 +189,9 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
     case WLK_STRUCT_ERROR_ESTIMATE:
       return write(blank<WlkErrorEstimate>(sType), structSize, structure);
     case WLK_STRUCT_RAY_BATCH:
-      return write(rays(), structSize, structure);
+      return write(rays(), structSize, structure, RAY_BATCH_FIRST_SIZE);
+    case WLK_STRUCT_SKY_MAP_QUERY:
+      return write(skyMap(), structSize, structure);
     case WLK_STRUCT_PHASE_QUERY:
       return write(phaseQuery(), structSize, structure);
     case WLK_STRUCT_VULKAN_DEVICE_INFO:

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 // CPU queries, in double precision, by the model text that the GPU runs.
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "api/air_query.hpp"
 #include "api/context.hpp"
+#include "api/sky_query.hpp"
 #include "api/validate.hpp"
-#include "model/evaluate.hpp"
-#include "particles/medium.hpp"
 
 namespace {
 
@@ -31,34 +29,20 @@ WlkRay checkedRay(const WlkRayBatch& batch, uint32_t index) {
   return ray;
 }
 
-void evaluateRay(const AirQuery& q, const WlkPlanet& planet, const WlkRay& ray, double* radiance,
-                 double* transmittance) {
-  const glm::dvec3 origin(ray.origin[0], ray.origin[1], ray.origin[2]);
-  const glm::dvec3 direction =
-      glm::normalize(glm::dvec3(ray.direction[0], ray.direction[1], ray.direction[2]));
-  const PlanetFrame frame = planetFrameAt(planet, origin);
-  const double viewMu = glm::dot(direction, frame.up);
-  const double ground = evalGroundDistance(frame.altitude, viewMu, planet.radius);
-  const double distance = ground >= 0 ? std::min(ground, ray.length) : ray.length;
-  const glm::dvec3 apart = direction - q.toLight;
-  const double y = 0.5 * glm::dot(apart, apart);
-  double phase[3] = {0, 0, 0};
-  for (size_t i = 0; i < 3 && q.air.fogExtinction > 0; ++i) {
-    phase[i] = q.droplets->analytic ? evalPhase(q.droplets->phase, y)
-                                    : evalPhaseCurve(q.droplets->curve, i, y);
+// The planet counts as being in the way from so far below sea level on, so that points on it see
+// each other. m.
+constexpr double GRAZING = 1.0;
+
+// Whether the planet lies between a point and one at least as high, `distance` m away.
+bool planetBetween(const AirQuery& q, const PlanetFrame& low, double viewMu, double distance) {
+  const double radius = q.air.planetRadius + low.altitude;
+  const double nearest = -radius * viewMu;
+  if (!(nearest > 0 && nearest < distance)) {
+    return false;
   }
-  double scattered[3];
-  double depth[3];
-  evalAirRay(q.air, frame.altitude, viewMu, glm::dot(q.toLight, frame.up), 1.0 - y, distance, phase,
-             q.angularRadius, scattered, depth);
-  for (int i = 0; i < 3; ++i) {
-    if (radiance != nullptr) {
-      radiance[i] = q.light ? scattered[i] * q.irradiance[i] : 0.0;
-    }
-    if (transmittance != nullptr) {
-      transmittance[i] = std::exp(-depth[i]);
-    }
-  }
+  const double sine = std::sqrt(std::max((1 - viewMu) * (1 + viewMu), 0.0));
+  const double dip = radius * viewMu * viewMu / (1 + sine);
+  return low.altitude - dip < std::min(low.altitude, 0.0) - GRAZING;
 }
 
 }  // namespace
@@ -67,8 +51,9 @@ WlkResult wlkEvalSky(WlkContext context, const WlkRayBatch* batch, double* radia
                      double* transmittance) {
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
-    const WlkRayBatch b = copyStruct(batch, WLK_STRUCT_RAY_BATCH);
+    const WlkRayBatch b = copyStruct(batch, WLK_STRUCT_RAY_BATCH, RAY_BATCH_FIRST_SIZE);
     checkNoChain(batch);
+    checkRange(b.sType, "maxOrder", b.maxOrder, ALL_ORDERS, FIRST_ORDER);
     if (b.count > 0) {
       checkPointer(b.rays, "rays");
     }
@@ -81,10 +66,25 @@ WlkResult wlkEvalSky(WlkContext context, const WlkRayBatch* batch, double* radia
       checkedRay(b, i);
     }
     const AirQuery query = airQueryOf(c.air);
+    const bool light = radiance != nullptr && b.count > 0;
+    const SkyField* const field = light ? higherOrdersOf(c, query, b.maxOrder) : nullptr;
     for (uint32_t i = 0; i < b.count; ++i) {
-      evaluateRay(query, c.air.planet, checkedRay(b, i),
-                  radiance == nullptr ? nullptr : radiance + size_t{3} * i,
-                  transmittance == nullptr ? nullptr : transmittance + size_t{3} * i);
+      const WlkRay ray = checkedRay(b, i);
+      const glm::dvec3 direction(ray.direction[0], ray.direction[1], ray.direction[2]);
+      const PlanetFrame eye =
+          planetFrameAt(c.air.planet, glm::dvec3(ray.origin[0], ray.origin[1], ray.origin[2]));
+      const SkyQueryRay way = skyQueryRay(query, eye, glm::normalize(direction), ray.length);
+      const SkyQueryResult result =
+          evalSkyRay(query, c.air.planet, field, way, fogPhaseAt(query, way.y));
+      for (int k = 0; k < 3; ++k) {
+        const size_t at = size_t{3} * i + static_cast<size_t>(k);
+        if (radiance != nullptr) {
+          radiance[at] = result.air[k];
+        }
+        if (transmittance != nullptr) {
+          transmittance[at] = result.transmittance[k];
+        }
+      }
     }
     return WLK_SUCCESS;
   });
@@ -100,22 +100,38 @@ WlkResult wlkEvalLight(WlkContext context, uint32_t lightIndex, const double pos
       fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_LIGHT, "lightIndex", "light %u is not set",
            lightIndex);
     }
+    const glm::dvec3 point = checkedPoint(position, "position");
+    const AirQuery query = airQueryOf(c.air);
+    const glm::dvec3 result = lightIrradiance(query, planetFrameAt(c.air.planet, point));
     for (int i = 0; i < 3; ++i) {
-      if (!(std::abs(position[i]) <= 1e9)) {
-        fail(WLK_ERROR_INVALID_ARGUMENT, 0, "position", "position holds %g", position[i]);
-      }
+      irradiance[i] = result[i];
     }
-    const AirQuery q = airQueryOf(c.air);
-    const PlanetFrame frame =
-        planetFrameAt(c.air.planet, glm::dvec3(position[0], position[1], position[2]));
-    // As rays do: half way to the planet's centre all is opaque; at the centre nothing is defined.
-    const double altitude = std::max(frame.altitude, -0.5 * q.air.planetRadius);
-    double depth[3];
-    double visible = 0;
-    evalLightDepth(q.air, altitude, glm::dot(q.toLight, frame.up), q.angularRadius, depth,
-                   &visible);
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkEvalTransmittance(WlkContext context, const double from[3], const double to[3],
+                               double transmittance[3]) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    const glm::dvec3 ends[2] = {checkedPoint(from, "from"), checkedPoint(to, "to")};
+    checkPointer(transmittance, "transmittance");
+    const AirQuery query = airQueryOf(c.air);
+    const PlanetFrame frames[2] = {planetFrameAt(c.air.planet, ends[0]),
+                                   planetFrameAt(c.air.planet, ends[1])};
+    // From the lower to the higher one, whichever is which: the same both ways.
+    const int low = frames[1].altitude < frames[0].altitude ? 1 : 0;
+    const glm::dvec3 way = ends[1 - low] - ends[low];
+    const double distance = glm::length(way);
+    double depth[3] = {0, 0, 0};
+    bool blocked = false;
+    if (distance > 0) {
+      const double viewMu = std::clamp(glm::dot(way, frames[low].up) / distance, -1.0, 1.0);
+      blocked = planetBetween(query, frames[low], viewMu, distance);
+      evalAirDepth(query.air, frames[low].altitude, viewMu, distance, depth);
+    }
     for (int i = 0; i < 3; ++i) {
-      irradiance[i] = q.irradiance[i] * std::exp(-depth[i]) * visible;
+      transmittance[i] = blocked ? 0.0 : std::exp(-depth[i]);
     }
     return WLK_SUCCESS;
   });

@@ -5,6 +5,7 @@
 
 #include "api/context.hpp"
 #include "api/plan_input.hpp"
+#include "api/sky_light.hpp"
 
 namespace {
 
@@ -76,6 +77,20 @@ void uploadTable(WlkContext_T& c, VkCommandBuffer commands, uint32_t fieldCount,
   Retired& entry = c.retired.emplace_back(&c.memory);
   entry.frame = c.frameIndex;
   entry.buffers[0] = std::move(table.staging);
+}
+
+void uploadSkyLight(WlkContext_T& c, VkCommandBuffer commands) {
+  SkyLightState& light = c.skyLight;
+  VkBufferImageCopy region{};
+  region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  region.imageExtent = light.moments.info().extent;
+  copyInto(c.device->vk(), commands, light.staging, light.moments, region, false);
+  ++light.version;
+  c.bytesUploaded += light.staging.size();
+  ++c.updateCopies;
+  Retired& entry = c.retired.emplace_back(&c.memory);
+  entry.frame = c.frameIndex;
+  entry.buffers[0] = std::move(light.staging);
 }
 
 TargetImage ownTarget(const vk::Image& image, const WlkVulkanImageState& before,
@@ -156,6 +171,13 @@ void renderHeadless(WlkContext_T& c, ViewState& view, const WlkHeadlessTargets& 
   c.collect();
 }
 
+// Whether the eye is so high that it may soon look down on the edge of night: a tenth of where
+// pixels gather their light themselves, some 12 km on Earth.
+bool nearSpace(const WlkContext_T& c, const ViewState& view) {
+  const glm::dvec3 eye(view.camera.position[0], view.camera.position[1], view.camera.position[2]);
+  return seenFromSpace(c.skyLight, 10 * planetFrameAt(c.air.planet, eye).altitude);
+}
+
 }  // namespace
 
 namespace welkin {
@@ -164,8 +186,13 @@ void recordUpdate(WlkContext_T& c, VkCommandBuffer commands) {
   const vk::Dispatch& vk = c.device->vk();
   c.bytesUploaded = 0;
   c.updateCopies = 0;
+  if (c.headless) {
+    prepareSkyLight(c);
+  } else {
+    advanceSkyLight(c);
+  }
   // Room first: from the first command on nothing may throw.
-  c.retired.reserve(c.retired.size() + c.pending.size() +
+  c.retired.reserve(c.retired.size() + c.pending.size() + 1 +
                     size_t{SCATTERING_FORMS} * c.volumes.count());
   clearOnce(vk, commands, c.dummy2d);
   clearOnce(vk, commands, c.dummy3d);
@@ -179,6 +206,9 @@ void recordUpdate(WlkContext_T& c, VkCommandBuffer commands) {
         uploadTable(c, commands, volume->fieldCount, table);
       }
     }
+  }
+  if (c.skyLight.staging) {
+    uploadSkyLight(c, commands);
   }
   for (PendingUpload& upload : c.pending) {
     VolumeState& volume = *c.volumes.find(upload.volumeId);
@@ -221,9 +251,13 @@ void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
   }
   input.volumes = view.planVolumes;
   makePlan(input, view.plan);
+  const PlanetFrame eye = planetFrameAt(input.planet, input.eye);
+  view.plan.space = view.plan.multiple && seenFromSpace(c.skyLight, eye.altitude);
+  view.plan.allLight = tableHoldsAllLight(view.plan, eye.altitude, glm::dot(eye.up, input.toLight));
 
   RecordInput record;
   record.air = &c.air;
+  record.sky = &c.skyLight;
   record.volumes = c.recordVolumes;
   record.dummy2d = c.dummy2d.view();
   record.dummy3d = c.dummy3d.view();
@@ -264,6 +298,7 @@ WlkResult wlkPrepare(WlkContext context) {
     SceneFeatures features;
     features.sky = c.air.sky.has_value();
     features.fog = c.fogActive();
+    prepareSkyLight(c);
     c.recordVolumes.reserve(c.volumes.count());
     for (uint32_t i = 0; i < c.views.slotCount(); ++i) {
       ViewState* view = c.views.at(i);
@@ -275,12 +310,13 @@ WlkResult wlkPrepare(WlkContext context) {
       ViewState carrier(&c.memory);
       carrier.info = view->info;
       carrier.quality = view->quality;
+      features.space = nearSpace(c, *view);
       prepareView(device, *c.pipelines, carrier, c.volumes.count(), c.maxFramesInFlight, features,
                   {counts.data(), kinds}, &c.memory);
       view->plan.volumes.reserve(c.volumes.count());
       view->planVolumes.reserve(c.volumes.count());
-      view->record.passes.reserve(1 + 2 * size_t{c.volumes.count()});
-      view->record.times.reserve(1 + 2 * size_t{c.volumes.count()});
+      view->record.passes.reserve(2 + 2 * size_t{c.volumes.count()});
+      view->record.times.reserve(2 + 2 * size_t{c.volumes.count()});
       c.retireView(*view);
       std::swap(view->resources, carrier.resources);
       view->prepared = true;

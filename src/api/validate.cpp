@@ -52,6 +52,8 @@ const char* structName(uint32_t sType) {
       return "WlkErrorEstimate";
     case WLK_STRUCT_RAY_BATCH:
       return "WlkRayBatch";
+    case WLK_STRUCT_SKY_MAP_QUERY:
+      return "WlkSkyMapQuery";
     case WLK_STRUCT_VULKAN_DEVICE_INFO:
       return "WlkVulkanDeviceInfo";
     case WLK_STRUCT_VULKAN_REQUIREMENTS:
@@ -71,7 +73,7 @@ void checkPointer(const void* pointer, const char* argument) {
   }
 }
 
-void checkHeader(const void* structure, uint32_t sType, uint32_t size) {
+void checkHeader(const void* structure, uint32_t sType, uint32_t size, uint32_t firstSize) {
   checkPointer(structure, structName(sType));
   StructHeader header;
   std::memcpy(&header, structure, sizeof header.sType + sizeof header.structSize);
@@ -79,8 +81,9 @@ void checkHeader(const void* structure, uint32_t sType, uint32_t size) {
     fail(WLK_ERROR_UNKNOWN_STRUCT, sType, "sType", "%s::sType is %u, expected %u",
          structName(sType), header.sType, sType);
   }
-  // Version 0.1 knows one size of each structure; later ones are longer.
-  if (header.structSize < size) {
+  // A structure has the size of the header that introduced it, ours, or a longer one.
+  const bool ofFirst = firstSize > 0 && header.structSize == firstSize;
+  if (header.structSize < size && !ofFirst) {
     fail(WLK_ERROR_INVALID_ARGUMENT, sType, "structSize",
          "%s::structSize is %u, expected at least %u", structName(sType), header.structSize, size);
   }

@@ -5,6 +5,7 @@
 #include <welkin/welkin.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 
 #include "failure.hpp"
@@ -22,17 +23,22 @@ const char* structName(uint32_t sType);
 
 void checkPointer(const void* pointer, const char* argument);
 
-// Pointer, sType and structSize of a structure; `size` is this library's sizeof.
-void checkHeader(const void* structure, uint32_t sType, uint32_t size);
+// What WlkRayBatch was before maxOrder.
+constexpr uint32_t RAY_BATCH_FIRST_SIZE = offsetof(WlkRayBatch, maxOrder);
+
+// Pointer, sType and structSize of a structure; `size` is this library's sizeof, `firstSize` that
+// of the header that introduced the structure, 0 if it has not grown since.
+void checkHeader(const void* structure, uint32_t sType, uint32_t size, uint32_t firstSize = 0);
 
 // As checkHeader for structures that are written: the caller's must be at least ours, and there is
 // no chain.
 void checkOutput(const void* structure, uint32_t sType, uint32_t size);
 
-// A copy of the caller's structure in this library's size; `next` must be null.
+// A copy of the caller's structure in this library's size; fields that the caller's header does not
+// know are 0, which must be their default.
 template <typename T>
-T copyStruct(const T* structure, uint32_t sType) {
-  checkHeader(structure, sType, sizeof(T));
+T copyStruct(const T* structure, uint32_t sType, uint32_t firstSize = 0) {
+  checkHeader(structure, sType, sizeof(T), firstSize);
   T copy{};
   std::memcpy(&copy, structure, std::min<size_t>(structure->structSize, sizeof(T)));
   return copy;

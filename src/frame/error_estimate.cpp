@@ -42,6 +42,17 @@ double missing(double m) {
   return m / (1 + m);
 }
 
+// What all orders leave of the error of the first alone: in air half a per cent, of which no more
+// than the part it replaces; in fog two Legendre terms, the fewer the more is scattered again.
+constexpr double ALL_ORDERS_AIR = 0.005;
+constexpr double ALL_ORDERS_FOG = 1.3;
+double leftOfSky(double first) {
+  return std::min(first, ALL_ORDERS_AIR);
+}
+double leftOfFog(double first) {
+  return std::min(first, ALL_ORDERS_FOG * first * first * first);
+}
+
 // What of a ray a species contributes: radiance per irradiance of an isotropic phase function, and
 // the optical depth.
 struct Species {
@@ -184,6 +195,9 @@ ErrorParts estimateError(const ErrorInput& in) {
     skyError[c] = missing(FIT.scatterScale * std::pow(airDepth[c], FIT.scatterPower) *
                               std::pow(sunlight[c], -FIT.scatterSun) +
                           FIT.groundScale * fromGround[c]);
+    if (in.quality.multipleSky) {
+      skyError[c] = leftOfSky(skyError[c]);
+    }
   }
 
   for (int y = 0; y < GRID; ++y) {
@@ -211,9 +225,10 @@ ErrorParts estimateError(const ErrorInput& in) {
         }
         const double reduced =
             std::sqrt(std::min(fog.depth[c], 50.0) * std::min(fogDepth[c], 50.0)) * in.fogGap;
-        const double fogError = missing(FIT.fogScale * std::pow(reduced, FIT.fogPower) *
-                                            std::pow(sunlight[c], -FIT.fogSun) +
-                                        FIT.fogGround * fromGround[c]);
+        const double first = missing(FIT.fogScale * std::pow(reduced, FIT.fogPower) *
+                                         std::pow(sunlight[c], -FIT.fogSun) +
+                                     FIT.fogGround * fromGround[c]);
+        const double fogError = in.quality.multipleSky ? leftOfFog(first) : first;
         squares[WLK_APPROXIMATION_SKY] +=
             free * air.radiance[c] / sum * skyError[c] * skyError[c] / 3;
         squares[WLK_APPROXIMATION_FOG] += free * fog.radiance[c] / sum * fogError * fogError / 3;

@@ -202,6 +202,7 @@ SliceQuality resolveQuality(const WlkQuality& quality) {
   result.halfAngle = either(quality.slicing, level.slicing) == WLK_SLICING_HALF_ANGLE;
   result.forwardScattering = scattering != WLK_SCATTERING_SINGLE;
   result.wholeOrders = scattering == WLK_SCATTERING_FORWARD_INTEGER;
+  result.multipleSky = result.forwardScattering;
   result.noSkip = (quality.flags & WLK_QUALITY_NO_SKIP) != 0;
   return result;
 }
@@ -294,10 +295,28 @@ void makePlan(const PlanInput& in, Plan& plan) {
   plan.air = in.sky && (in.layers & WLK_LAYER_SKY) != 0;
   plan.fog = in.fog && (in.layers & WLK_LAYER_FOG) != 0;
   const PlanetFrame eye = planetFrameAt(in.planet, in.eye);
-  plan.light = in.light && (in.quality.noSkip || lightReachesAir(in, eye));
+  plan.lightReaches = in.light && lightReachesAir(in, eye);
+  plan.light = plan.lightReaches || (in.light && in.quality.noSkip);
   plan.disk =
       plan.air && in.light && (in.layers & WLK_LAYER_SUN_DISK) != 0 && in.lightAngularRadius > 0;
   plan.ground = plan.air && (in.layers & WLK_LAYER_GROUND) != 0;
+  plan.multiple = in.quality.multipleSky && plan.light && (plan.air || plan.fog);
+  if (plan.multiple && plan.lightReaches) {
+    // Light that was scattered over the edge of night reaches the air before a volume that has no
+    // light itself; the passes know only one kind of lit volume.
+    for (PlannedVolume& volume : plan.volumes) {
+      if (volume.drawn && !volume.lit) {
+        volume.lit = true;
+        volume.lightReason = WLK_REASON_NEEDED;
+      }
+    }
+  }
+  if (!plan.multiple) {
+    const bool layersOff = (in.sky || in.fog) && !plan.air && !plan.fog;
+    plan.skyReason = layersOff                               ? WLK_REASON_LAYER_OFF
+                     : (plan.air || plan.fog) && !plan.light ? WLK_REASON_NO_LIGHT
+                                                             : WLK_REASON_NOTHING_TO_DRAW;
+  }
   const bool something = plan.air || plan.fog || plan.drawnCount > 0;
   plan.composite = something || in.mustWrite || in.quality.noSkip;
   plan.compositeReason =

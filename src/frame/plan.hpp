@@ -21,6 +21,7 @@ struct SliceQuality {
   bool forwardScattering;
   bool wholeOrders;  // ceil(n) scatterings instead of Poisson counts
   bool noSkip;
+  bool multipleSky;  // light scattered more than once in air and fog
   // Index of the scattering tables.
   uint32_t form() const { return forwardScattering && wholeOrders ? 1 : 0; }
 };
@@ -102,10 +103,15 @@ struct Plan {
   PixelRect volumeRect;  // union of the drawn ones
   bool air = false;
   bool fog = false;
-  bool light = false;  // the light reaches air, fog or ground
+  bool lightReaches = false;  // air, fog or ground
+  bool light = false;         // and is shaded
   bool disk = false;
   bool ground = false;
+  bool multiple = false;  // its light scattered more than once is shown
+  bool space = false;     // and gathered by every pixel
+  bool allLight = false;  // clear air: its table holds light scattered once, too
   bool composite = false;
+  uint32_t skyReason = WLK_REASON_NEEDED;
   uint32_t compositeReason = WLK_REASON_NEEDED;
 };
 

@@ -7,6 +7,7 @@
 #include "failure.hpp"
 #include "frame/bindings.hpp"
 #include "frame/resources.hpp"
+#include "frame/sky_bindings.hpp"
 
 namespace welkin {
 namespace {
@@ -43,6 +44,7 @@ class Recorder {
     findPipelines();
     start();
     acquireTargets();
+    recordSkyTable();
     for (const PlannedVolume& volume : view_.plan.volumes) {
       recordVolume(volume);
     }
@@ -65,8 +67,9 @@ class Recorder {
 
   vk::PipelineKey eyeKeyOf(const PlannedVolume& planned) const {
     const Plan& plan = view_.plan;
-    return eyeKey(plan.air, plan.fog, planned.lit, volumeOf(planned).state->fieldCount,
-                  quality_.forwardScattering, static_cast<bool>(targets_.depth));
+    return eyeKey(
+        {plan.air, plan.fog, planned.lit, static_cast<bool>(targets_.depth), plan.allLight},
+        volumeOf(planned).state->fieldCount, quality_.forwardScattering);
   }
 
   VkPipeline find(const vk::PipelineKey& key) const {
@@ -87,22 +90,34 @@ class Recorder {
         find(lightKey(volumeOf(volume).state->fieldCount, quality_.forwardScattering));
       }
     }
+    if (plan.multiple) {
+      find(skyTableKey(plan.air, plan.fog, plan.allLight));
+    }
     if (plan.composite) {
       CompositeVariant v{};
       v.air = plan.air;
       v.fog = plan.fog;
       v.light = plan.light;
-      v.volumes = plan.drawnCount > 0;
+      v.volumes = view_.resources.volumeCapacity > 0;
       v.depth = static_cast<bool>(targets_.depth);
       v.disk = plan.disk;
       v.ground = plan.ground;
-      v.colorInput = view_.info.composite == WLK_COMPOSITE_COMPUTE &&
-                     (targets_.inputIsTarget || targets_.colorInput);
-      // Variants are prepared for a layer as a whole; a light without a disk keeps the disk off.
-      vk::PipelineKey key = compositeKey(view_.info, v);
-      if (pipelines_.find(key) == VK_NULL_HANDLE && v.light && !v.disk) {
-        v.disk = true;
-        key = compositeKey(view_.info, v);
+      v.multiple = plan.multiple;
+      v.space = plan.space;
+      v.allLight = plan.allLight;
+      // Variants are prepared for a layer as a whole, so a light without a disk keeps the disk off;
+      // gathering by pixel from high up only, and until then the table has to do.
+      vk::PipelineKey key;
+      bool found = false;
+      for (const bool space : {v.space, false}) {
+        for (const bool disk : {plan.disk, plan.disk || v.light}) {
+          if (!found) {
+            v.space = space;
+            v.disk = disk;
+            key = compositeKey(view_.info, v);
+            found = pipelines_.find(key) != VK_NULL_HANDLE;
+          }
+        }
       }
       compositePipeline_ = find(key);
     }
@@ -122,8 +137,10 @@ class Recorder {
     auto* memory =
         static_cast<char*>(view_.resources.uniforms.data()) + in_.slot * view_.resources.slotStride;
     FrameUniforms frame;
-    fillFrame(*in_.air, view_, frame);
+    fillFrame(*in_.air, *in_.sky, view_, frame);
+    frame.output_.w = targets_.inputIsTarget || targets_.colorInput ? 1.0f : 0.0f;
     std::memcpy(memory, &frame, sizeof frame);
+    skyKey_ = skyTableKeyOf(frame);
     if (plan.fog) {
       std::memcpy(memory + view_.resources.fogOffset, in_.air->fogPhase->curve.data(),
                   FOG_CURVE_BYTES);
@@ -141,7 +158,39 @@ class Recorder {
             GENERAL_STATE);
       light.layout = VK_IMAGE_LAYOUT_GENERAL;
     }
+    for (vk::Image* table : {&view_.resources.skyTable, &view_.resources.skyPeak}) {
+      if (*table && table->layout == VK_IMAGE_LAYOUT_UNDEFINED) {
+        image(table->handle(), VK_IMAGE_ASPECT_COLOR_BIT,
+              {VK_IMAGE_LAYOUT_UNDEFINED, 0, VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE},
+              GENERAL_STATE);
+        table->layout = VK_IMAGE_LAYOUT_GENERAL;
+      }
+    }
     timestamp();
+  }
+
+  // The view's table of light scattered more than once, where something it depends on has changed.
+  void recordSkyTable() {
+    ViewResources& r = view_.resources;
+    WlkPassStats stats = passStats("sky table", WLK_PASS_SKY_TABLE, 0);
+    stats.reason = view_.plan.skyReason;
+    if (view_.plan.multiple) {
+      const bool kept = r.skyVersion == in_.sky->version && r.skyKey == skyKey_;
+      stats.reason = !kept ? WLK_REASON_NEEDED
+                           : (quality_.noSkip ? WLK_REASON_NO_SKIP_FLAG : WLK_REASON_UNCHANGED);
+      if (stats.reason != WLK_REASON_UNCHANGED) {
+        bindSkyTable(bindings_, pipelines_, r, slot_.skyTable, in_);
+        vk_.CmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.skyLayout(),
+                                  0, 1, &slot_.skyTable.set, 0, nullptr);
+        dispatch(find(skyTableKey(view_.plan.air, view_.plan.fog, view_.plan.allLight)),
+                 pipelines_.skyLayout(), nullptr, groups(interface_::SKY_AZIMUTHS),
+                 groups(interface_::SKY_ZENITHS), stats, 0);
+        orderShaders();
+        r.skyKey = skyKey_;
+        r.skyVersion = in_.sky->version;
+      }
+    }
+    view_.record.passes.push_back(stats);
   }
 
   void acquireTargets() {
@@ -264,6 +313,7 @@ class Recorder {
                      r.uniforms.handle(), base + r.fogOffset, FOG_CURVE_BYTES);
     bindings_.image(set, vk::BIND_DEPTH, targets_.depth ? targets_.depth.view : in_.dummy2d,
                     pipelines_.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    bindSkyLookup(bindings_, pipelines_, r, set, {vk::BIND_SKY_TABLE, vk::BIND_SKY_PEAK}, in_);
     const vk::Buffer& volumeState = r.volumeState ? r.volumeState : r.frameState;
     bindings_.buffer(set, vk::BIND_FRAME_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                      r.frameState.handle(), 0, r.frameState.size());
@@ -310,6 +360,10 @@ class Recorder {
                      r.counters.handle(), counterOffset(), 16);
     bindings_.image(set, vk::BIND_COMPOSITE_DEPTH,
                     targets_.depth ? targets_.depth.view : in_.dummy2d, pipelines_.nearest(),
+                    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    bindSkyLookup(bindings_, pipelines_, r, set,
+                  {vk::BIND_COMPOSITE_SKY_TABLE, vk::BIND_COMPOSITE_SKY_PEAK}, in_);
+    bindings_.image(set, vk::BIND_COMPOSITE_SKY_MOMENTS, momentsOf(in_), pipelines_.linear(),
                     VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     const bool blend = view_.info.composite == WLK_COMPOSITE_BLEND;
     if (targets_.inputIsTarget && !blend) {
@@ -431,29 +485,10 @@ class Recorder {
   bool anything_ = false;
   Bindings bindings_;
   std::array<WlkVulkanImageState, 4> work_{};
+  SkyTableKey skyKey_{};
 };
 
 }  // namespace
-
-void imageBarrier(const vk::Dispatch& vk, VkCommandBuffer commands, VkImage image,
-                  VkImageAspectFlags aspect, const WlkVulkanImageState& from,
-                  const WlkVulkanImageState& to) {
-  VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-  barrier.srcStageMask = from.stages;
-  barrier.srcAccessMask = from.access;
-  barrier.dstStageMask = to.stages;
-  barrier.dstAccessMask = to.access;
-  barrier.oldLayout = from.layout;
-  barrier.newLayout = to.layout;
-  barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-  barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-  barrier.image = image;
-  barrier.subresourceRange = {aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
-  VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-  info.imageMemoryBarrierCount = 1;
-  info.pImageMemoryBarriers = &barrier;
-  vk.CmdPipelineBarrier2(commands, &info);
-}
 
 void recordView(vk::Device& device, const vk::Pipelines& pipelines, VkCommandBuffer commands,
                 ViewState& view, const RecordInput& input, const ViewTargets& targets) {

@@ -35,6 +35,7 @@ struct RecordVolume {
 
 struct RecordInput {
   const AirState* air = nullptr;
+  const SkyLightState* sky = nullptr;
   std::span<const RecordVolume> volumes;  // by PlannedVolume::index
   VkImageView dummy2d = VK_NULL_HANDLE;
   VkImageView dummy3d = VK_NULL_HANDLE;

@@ -50,12 +50,12 @@ class Draft {
 };
 
 VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t volumes) {
-  const uint32_t sets = slots * (volumes + 1);
+  const uint32_t sets = slots * (volumes + 2);
   const std::array sizes{
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, slots * (2 * volumes + 1)},
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, slots * (2 * volumes + 2)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, slots * (3 * volumes + 3)},
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, slots * (volumes + 2)},
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, slots * (7 * volumes + 2)}};
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, slots * (volumes + 4)},
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, slots * (9 * volumes + 6)}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.maxSets = sets;
   info.poolSizeCount = static_cast<uint32_t>(sizes.size());
@@ -85,12 +85,13 @@ void makeSlots(vk::Device& device, const vk::Pipelines& pipelines, ViewResources
   for (uint32_t i = 0; i < framesInFlight; ++i) {
     ViewSlot& slot = r.slots.emplace_back(memory);
     slot.composite.set = makeSet(device, r.pool, pipelines.compositeSetLayout());
+    slot.skyTable.set = makeSet(device, r.pool, pipelines.skySetLayout());
     slot.volumes.resize(r.volumeCapacity);
     for (BoundSet& set : slot.volumes) {
       set.set = makeSet(device, r.pool, pipelines.volumeSetLayout());
     }
     slot.passOfQuery.reserve(r.queryCount);
-    slot.passes.reserve(1 + 2 * size_t{r.volumeCapacity});
+    slot.passes.reserve(2 + 2 * size_t{r.volumeCapacity});
     VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
     info.queryCount = r.queryCount;
@@ -106,6 +107,18 @@ vk::Image makeTarget(vk::Device& device, uint32_t width, uint32_t height, VkForm
   info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   return vk::Image(device, info);
+}
+
+void makeSkyTables(vk::Device& device, const SceneFeatures& features, ViewResources& r) {
+  vk::ImageInfo info;
+  info.type = VK_IMAGE_TYPE_3D;
+  info.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+  info.extent = {interface_::SKY_AZIMUTHS, interface_::SKY_ZENITHS, interface_::SKY_SHARES};
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+  r.skyTable = vk::Image(device, info);
+  if (features.fog) {
+    r.skyPeak = vk::Image(device, info);
+  }
 }
 
 void makeHeadlessTargets(vk::Device& device, const WlkViewInfo& info, ViewResources& r) {
@@ -131,26 +144,32 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
   for (const bool light : {false, true}) {
     for (const bool depth : {false, true}) {
       for (const uint32_t fields : fieldCounts) {
-        pipelines.prepare(eyeKey(air, fog, light, fields, quality.forwardScattering, depth));
+        EyeVariant v{air, fog, light, depth, false};
+        pipelines.prepare(eyeKey(v, fields, quality.forwardScattering));
+        v.allLight = light && air && !fog && quality.multipleSky;
+        pipelines.prepare(eyeKey(v, fields, quality.forwardScattering));
       }
-      for (const bool volumes : {false, true}) {
-        for (const bool input : {false, true}) {
-          CompositeVariant v{};
-          v.air = air;
-          v.fog = fog;
-          v.light = light;
-          v.volumes = volumes;
-          v.depth = depth;
-          v.disk = air && light && (view.info.layers & WLK_LAYER_SUN_DISK) != 0;
-          v.ground = air && (view.info.layers & WLK_LAYER_GROUND) != 0;
-          v.colorInput = input;
-          if ((volumes && fieldCounts.empty()) ||
-              (input && view.info.composite != WLK_COMPOSITE_COMPUTE)) {
-            continue;
-          }
-          pipelines.prepare(compositeKey(view.info, v));
-        }
-      }
+      CompositeVariant v{};
+      v.air = air;
+      v.fog = fog;
+      v.light = light;
+      v.volumes = !fieldCounts.empty();
+      v.depth = depth;
+      v.disk = air && light && (view.info.layers & WLK_LAYER_SUN_DISK) != 0;
+      v.ground = air && (view.info.layers & WLK_LAYER_GROUND) != 0;
+      v.multiple = quality.multipleSky && light;
+      pipelines.prepare(compositeKey(view.info, v));
+      v.space = v.multiple && features.space;
+      pipelines.prepare(compositeKey(view.info, v));
+      v.space = false;
+      v.allLight = v.multiple && air && !fog;
+      pipelines.prepare(compositeKey(view.info, v));
+    }
+  }
+  if (quality.multipleSky && (air || fog)) {
+    pipelines.prepare(skyTableKey(air, fog, false));
+    if (!fog) {
+      pipelines.prepare(skyTableKey(air, fog, true));
     }
   }
   for (const uint32_t fields : fieldCounts) {
@@ -202,10 +221,15 @@ vk::PipelineKey lightKey(uint32_t fields, bool forward) {
   return {vk::Pass::LightSlices, VK_FORMAT_UNDEFINED, {0, 0, 1, fields, forward ? 1u : 0u}};
 }
 
-vk::PipelineKey eyeKey(bool air, bool fog, bool light, uint32_t fields, bool forward, bool depth) {
+vk::PipelineKey eyeKey(const EyeVariant& v, uint32_t fields, bool forward) {
   return {vk::Pass::EyeSlices,
           VK_FORMAT_UNDEFINED,
-          {air, fog, light, fields, forward ? 1u : 0u, depth ? 1u : 0u}};
+          {v.air, v.fog, v.light, fields, forward ? 1u : 0u, v.depth ? 1u : 0u, forward ? 1u : 0u,
+           v.allLight ? 1u : 0u}};
+}
+
+vk::PipelineKey skyTableKey(bool air, bool fog, bool allLight) {
+  return {vk::Pass::SkyTable, VK_FORMAT_UNDEFINED, {air, fog, 1, allLight}};
 }
 
 vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& v) {
@@ -217,9 +241,11 @@ vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& v)
   } else {
     key.pass = vk::Pass::Composite;
     key.constants[7] = info.composite == WLK_COMPOSITE_SEPARATE;
-    key.constants[8] = v.colorInput;
-    key.constants[9] = info.targetFormat == WLK_TARGET_RGBA16_FLOAT;
+    key.constants[8] = info.targetFormat == WLK_TARGET_RGBA16_FLOAT;
   }
+  key.constants[9] = v.multiple && v.light && (v.air || v.fog);
+  key.constants[10] = v.space && key.constants[9] != 0;
+  key.constants[11] = v.allLight && key.constants[9] != 0;
   return key;
 }
 
@@ -248,7 +274,7 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
       vk::Buffer(device, counterStride * framesInFlight,
                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
   const uint32_t batches = (quality.sliceCount + quality.batchSize - 1) / quality.batchSize;
-  r.queryCount = 2 + volumeCount * 2 * batches;
+  r.queryCount = 3 + volumeCount * 2 * batches;
   const VkDeviceSize pixels = VkDeviceSize{info.width} * info.height;
   const VkDeviceSize stateBytes = volumeCount > 0 ? pixels * 16 : 16;
   r.frameState = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
@@ -268,14 +294,17 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
     light.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     r.lightBuffer = vk::Image(device, light);
   }
+  if (quality.multipleSky && (features.sky || features.fog)) {
+    makeSkyTables(device, features, r);
+  }
   if (device.info().headless) {
     makeHeadlessTargets(device, info, r);
   }
   makeSlots(device, pipelines, r, framesInFlight, memory);
   view.plan.volumes.reserve(volumeCount);
   view.planVolumes.reserve(volumeCount);
-  view.record.passes.reserve(1 + 2 * size_t{volumeCount});
-  view.record.times.reserve(1 + 2 * size_t{volumeCount});
+  view.record.passes.reserve(2 + 2 * size_t{volumeCount});
+  view.record.times.reserve(2 + 2 * size_t{volumeCount});
   std::swap(view.resources, r);
   view.prepared = true;
 }

@@ -13,6 +13,7 @@ namespace welkin {
 struct SceneFeatures {
   bool sky = false;
   bool fog = false;
+  bool space = false;  // a view's eye is, or may soon be, far above the air
 };
 
 VkFormat targetFormat(uint32_t welkinFormat);
@@ -32,9 +33,13 @@ constexpr VkDeviceSize FOG_CURVE_BYTES = sizeof(FogPhaseState::curve);
 
 // The key of a pass in the state a plan asks for.
 vk::PipelineKey lightKey(uint32_t fields, bool forward);
-vk::PipelineKey eyeKey(bool air, bool fog, bool light, uint32_t fields, bool forward, bool depth);
+struct EyeVariant {
+  bool air, fog, light, depth, allLight;
+};
+vk::PipelineKey eyeKey(const EyeVariant& variant, uint32_t fields, bool forward);
+vk::PipelineKey skyTableKey(bool air, bool fog, bool allLight);
 struct CompositeVariant {
-  bool air, fog, light, volumes, depth, disk, ground, colorInput;
+  bool air, fog, light, volumes, depth, disk, ground, multiple, space, allLight;
 };
 vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& variant);
 

@@ -95,8 +95,25 @@ struct FrameRecord {
   std::pmr::vector<PassTime> times;
 };
 
+// Light scattered more than once, as the passes read it.
+struct SkyLightState {
+  vk::Image moments;   // blocks of altitudes by suns, one below the other; last row: the ground's
+  vk::Buffer staging;  // until they are uploaded
+  uint64_t version = 0;
+  double top = 1;  // highest altitude of the moments, m
+  double fogShare = 0;
+  glm::vec4 eyeFog{0};
+  glm::vec4 fogFirst{0};
+  glm::vec4 fogSecond{0};
+  glm::vec4 fogBound{0};
+};
+
+// What a view's sky table was made for: it changes with these numbers only.
+using SkyTableKey = std::array<float, 40>;
+
 struct ViewSlot {
   BoundSet composite;
+  BoundSet skyTable;
   std::pmr::vector<BoundSet> volumes;
   VkQueryPool queries = VK_NULL_HANDLE;
   uint64_t frameIndex = 0;                 // last frame recorded into this slot, 0 if none
@@ -117,6 +134,10 @@ struct ViewResources {
   VkDeviceSize slotStride = 0;
   VkDeviceSize fogOffset = 0;
   VkDeviceSize volumeStride = 0;
+  vk::Image skyTable;
+  vk::Image skyPeak;  // where there is fog
+  SkyTableKey skyKey{};
+  uint64_t skyVersion = 0;  // SkyLightState::version of what is in the table, 0 if nothing is
   vk::Buffer counters;
   VkDescriptorPool pool = VK_NULL_HANDLE;
   std::pmr::vector<ViewSlot> slots;

@@ -3,13 +3,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
+
+#include "model/model.hpp"
 
 namespace welkin {
 namespace {
 
 glm::vec3 vec(const float (&v)[3]) {
   return {v[0], v[1], v[2]};
+}
+
+// Of the moments' top: where pixels begin to gather their own light.
+constexpr double SPACE = 1.5;
+
+void fillSky(double radius, double altitude, const Plan& plan, const SkyLightState& sky,
+             interface_::FrameUniforms& out) {
+  const double h = std::max(altitude, 0.0);
+  const double r = radius + h;
+  // Rays from above the moments' air that meet it at all.
+  const double rise = r > 0 ? (radius + SPACE * sky.top) / r : 1;
+  const double upper = rise < 1 ? -std::sqrt((1 - rise) * (1 + rise)) : 1;
+  out.skyLight = {static_cast<float>(sky.top), static_cast<float>(sky.fogShare),
+                  plan.lightReaches ? 1.0f : 0.0f, plan.allLight ? 1.0f : 0.0f};
+  out.skyView = {static_cast<float>(model::f64::horizonMu(h, radius)), static_cast<float>(upper), 0,
+                 0};
+  out.eyeFog = sky.eyeFog;
+  out.fogFirst = sky.fogFirst;
+  out.fogSecond = sky.fogSecond;
+  out.fogBound = sky.fogBound;
 }
 
 }  // namespace
@@ -25,7 +48,20 @@ float targetLimit(uint32_t welkinFormat) {
   }
 }
 
-void fillFrame(const AirState& air, const ViewState& view, interface_::FrameUniforms& out) {
+bool seenFromSpace(const SkyLightState& sky, double altitude) {
+  return altitude > SPACE * sky.top;
+}
+
+bool tableHoldsAllLight(const Plan& plan, double altitude, double sunMu) {
+  // Measured: tests/image/sky_light_test.cpp.
+  constexpr double HIGHEST = 2e4;
+  constexpr double LOWEST_SUN = 0.05;
+  return plan.multiple && plan.air && !plan.fog && !plan.space && plan.lightReaches &&
+         altitude < HIGHEST && sunMu > LOWEST_SUN;
+}
+
+void fillFrame(const AirState& air, const SkyLightState& sky, const ViewState& view,
+               interface_::FrameUniforms& out) {
   out = {};
   const float width = static_cast<float>(view.info.width);
   const float height = static_cast<float>(view.info.height);
@@ -70,6 +106,17 @@ void fillFrame(const AirState& air, const ViewState& view, interface_::FrameUnif
   const PixelRect& rect = view.plan.volumeRect;
   out.volumeRect = {static_cast<float>(rect.x0), static_cast<float>(rect.y0),
                     static_cast<float>(rect.x1), static_cast<float>(rect.y1)};
+  fillSky(air.planet.radius, frame.altitude, view.plan, sky, out);
+}
+
+SkyTableKey skyTableKeyOf(const interface_::FrameUniforms& frame) {
+  const std::array rows{frame.eye,    frame.light,     frame.lightIrradiance, frame.air,
+                        frame.fog,    frame.fogAlbedo, frame.skyLight,        frame.skyView,
+                        frame.eyeFog, frame.fogFirst};
+  SkyTableKey key;
+  static_assert(sizeof key == sizeof rows);
+  std::memcpy(key.data(), rows.data(), sizeof key);
+  return key;
 }
 
 void fillVolume(const VolumeState& volume, const PlannedVolume& planned, const glm::dvec3& eye,

@@ -17,6 +17,7 @@ using vec4 = glm::vec4;
 using mat4 = glm::mat4;
 using uint = uint32_t;
 #include "interface/frame.glsl"
+#include "interface/sky_table.glsl"
 #include "interface/slices.glsl"
 }  // namespace interface_
 
@@ -35,7 +36,15 @@ struct AirState {
   std::optional<WlkLight> light;
 };
 
-void fillFrame(const AirState& air, const ViewState& view, interface_::FrameUniforms& out);
+void fillFrame(const AirState& air, const SkyLightState& sky, const ViewState& view,
+               interface_::FrameUniforms& out);
+// Whether the eye is so high that its table is too coarse for the edge of night below.
+bool seenFromSpace(const SkyLightState& sky, double altitude);
+// Whether a table of all light is as exact as evaluating every pixel: clear air without edges of
+// night in it.
+bool tableHoldsAllLight(const Plan& plan, double altitude, double sunMu);
+// The numbers a sky table depends on.
+SkyTableKey skyTableKeyOf(const interface_::FrameUniforms& frame);
 void fillVolume(const VolumeState& volume, const PlannedVolume& planned, const glm::dvec3& eye,
                 const SliceQuality& quality, interface_::VolumeUniforms& out);
 

@@ -35,6 +35,16 @@ void evalAirRay(const AirInput& air, double altitude, double viewMu, double sunM
   store(result.opticalDepth, opticalDepth);
 }
 
+void evalAirDepth(const AirInput& air, double altitude, double viewMu, double distance,
+                  double opticalDepth[3]) {
+  AirRay ray;
+  ray.altitude = altitude;
+  ray.viewMu = viewMu;
+  ray.sunMu = 1.0;
+  ray.viewSun = viewMu;
+  store(airOpticalDepth(airFrom(air), ray, distance), opticalDepth);
+}
+
 void evalLightDepth(const AirInput& air, double altitude, double lightMu, double angularRadius,
                     double opticalDepth[3], double* visibility) {
   const Air input = airFrom(air);

@@ -25,6 +25,10 @@ void evalAirRay(const AirInput& air, double altitude, double viewMu, double sunM
                 double distance, const double fogPhase[3], double angularRadius, double radiance[3],
                 double opticalDepth[3]);
 
+// Optical depth along a ray of `distance` m (may be infinite); the planet is transparent.
+void evalAirDepth(const AirInput& air, double altitude, double viewMu, double distance,
+                  double opticalDepth[3]);
+
 // Optical depth from a point to the light, and the fraction of the light's disk (half angle
 // angularRadius, rad) that the planet leaves visible.
 void evalLightDepth(const AirInput& air, double altitude, double lightMu, double angularRadius,

@@ -138,6 +138,35 @@ double hemisphereIntegral(std::span<const double> y, std::span<const double> p) 
   return integral(y, p, 1);
 }
 
+double cutLevel(std::span<const double> y, std::span<const double> p, double share) {
+  // What lies above a level, exact for straight pieces.
+  const auto above = [&](double level) {
+    double sum = 0;
+    for (size_t i = 0; i + 1 < y.size(); ++i) {
+      const double a = p[i] - level;
+      const double b = p[i + 1] - level;
+      const double length = y[i + 1] - y[i];
+      if (a > 0 && b > 0) {
+        sum += 0.5 * length * (a + b);
+      } else if (a > 0 || b > 0) {
+        const double high = std::max(a, b);
+        sum += 0.5 * length * high * high / (std::max(a, b) - std::min(a, b));
+      }
+    }
+    return 2 * std::numbers::pi * sum;
+  };
+  double low = 0;
+  double high = *std::max_element(p.begin(), p.end());
+  if (above(low) < share) {
+    return 0;
+  }
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (above(middle) > share ? low : high) = middle;
+  }
+  return low;
+}
+
 double curveValue(std::span<const double> y, std::span<const double> p, double at) {
   const auto above = std::upper_bound(y.begin() + 1, y.end() - 1, at);
   const auto i = static_cast<size_t>(above - y.begin()) - 1;

@@ -28,6 +28,9 @@ std::vector<double> scatteringMoments(std::span<const double> y, std::span<const
 double sphereIntegral(std::span<const double> y, std::span<const double> p);
 double hemisphereIntegral(std::span<const double> y, std::span<const double> p);
 
+// The level that cuts `share` of the sphere's integral off the curve's top; 0 if there is less.
+double cutLevel(std::span<const double> y, std::span<const double> p, double share);
+
 // The curve at any y in [0, 2].
 double curveValue(std::span<const double> y, std::span<const double> p, double at);
 

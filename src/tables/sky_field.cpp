@@ -18,6 +18,14 @@ using namespace model::f64;
 
 constexpr double PI = std::numbers::pi;
 
+SkyColor sumOf(const SkyField::Parts& parts) {
+  SkyColor sum{};
+  for (size_t c = 0; c < 3; ++c) {
+    sum[c] = parts.air[c] + parts.ground[c];
+  }
+  return sum;
+}
+
 }  // namespace
 
 SkyField::Moments SkyField::momentsAt(double altitude, double sunMu) const {
@@ -59,15 +67,15 @@ SkyColor SkyField::irradianceAt(double sunMu) const {
           static_cast<double>(lanes[2])};
 }
 
-SkyColor SkyField::radianceAlong(double altitude, double viewMu, double sunMu, double viewSun,
-                                 double distance, int steps) const {
+SkyField::Parts SkyField::momentsAlong(double altitude, double viewMu, double sunMu, double viewSun,
+                                       double distance, int steps) const {
   const SkyAxes axes(air_);
   const SkyRay plan = planRay(eye_, axes, altitude, viewMu, distance, steps);
   const FogTerms terms = fogTerms(eyeMoments_);
   const double r = air_.planetRadius + altitude;
   const SkyAim aim{static_cast<float>(r), static_cast<float>(viewMu), static_cast<float>(sunMu),
                    static_cast<float>(viewSun)};
-  SkyColor result{};
+  Parts result;
   for (const SkyStep& step : plan.steps) {
     const SkyPlace place = placeAt(aim, step);
     const SkyNode sun = sunNode(place.sunMu);
@@ -77,89 +85,115 @@ SkyColor SkyField::radianceAlong(double altitude, double viewMu, double sunMu, d
     for (size_t c = 0; c < 3; ++c) {
       const float source =
           g.mean[c] + terms.first[c] * g.along[c] + terms.second[c] * (3 * g.square[c] - g.mean[c]);
-      result[c] += static_cast<double>(step.air[c] * RAYLEIGH * (g.mean[c] + g.square[c]) +
-                                       step.fog[c] * ISOTROPIC * std::max(source, 0.0F));
+      result.air[c] += static_cast<double>(step.air[c] * RAYLEIGH * (g.mean[c] + g.square[c]) +
+                                           step.fog[c] * ISOTROPIC * std::max(source, 0.0F));
     }
   }
   if (plan.ground >= 0) {
     const double foot = (r * sunMu + plan.ground * viewSun) / air_.planetRadius;
     const SkyColor irradiance = irradianceAt(std::clamp(foot, -1.0, 1.0));
     for (size_t c = 0; c < 3; ++c) {
-      result[c] += static_cast<double>(plan.atGround[c]) * groundAlbedo_[c] / PI * irradiance[c];
+      result.ground[c] =
+          static_cast<double>(plan.atGround[c]) * groundAlbedo_[c] / PI * irradiance[c];
     }
   }
   return result;
+}
+
+SkyColor SkyField::radianceAlong(double altitude, double viewMu, double sunMu, double viewSun,
+                                 double distance, int steps) const {
+  return sumOf(momentsAlong(altitude, viewMu, sunMu, viewSun, distance, steps));
 }
 
 SkyField::Once SkyField::onceAlong(const AirInput& input, double altitude, double viewMu,
                                    double sunMu, double viewSun, double distance,
                                    const SkyColor& phase) const {
   const Air air = airFrom(input);
-  const double ground = groundDistance(altitude, viewMu, air.planetRadius);
-  const bool toGround = ground >= 0 && ground <= distance;
-  const double reach = toGround ? ground : distance;
   AirRay ray;
   ray.altitude = altitude;
   ray.viewMu = viewMu;
   ray.sunMu = sunMu;
   ray.viewSun = viewSun;
-  const AirResult along = airAlongRay(air, ray, reach, rayleighPhase(1 - viewSun),
+  const AirResult along = airAlongRay(air, ray, distance, rayleighPhase(1 - viewSun),
                                       vec3(phase[0], phase[1], phase[2]), lightAngularRadius_);
-  Once once{};
-  vec3 depth(0.0);
-  double lit = 0;
-  if (toGround) {
-    const double foot = std::clamp(
-        ((air.planetRadius + altitude) * sunMu + reach * viewSun) / air.planetRadius, -1.0, 1.0);
-    depth = lightOpticalDepth(air, 0.0, foot);
-    lit = std::max(foot, 0.0) * lightVisibility(air, 0.0, foot, lightAngularRadius_);
-  }
+  return {{along.radiance.x, along.radiance.y, along.radiance.z},
+          {along.opticalDepth.x, along.opticalDepth.y, along.opticalDepth.z}};
+}
+
+SkyField::Lit SkyField::groundAt(double sunMu) const {
+  const Air air = airFrom(air_);
+  const double lit = std::max(sunMu, 0.0) * lightVisibility(air, 0.0, sunMu, lightAngularRadius_);
+  const vec3 less = lightOpticalDepth(air, 0.0, sunMu);
+  const vec3 all = lightOpticalDepth(airFrom(attenuated_), 0.0, sunMu);
+  Lit ground{};
   for (size_t c = 0; c < 3; ++c) {
     const int k = static_cast<int>(c);
-    once.depth[c] = along.opticalDepth[k];
-    once.radiance[c] = along.radiance[k] +
-                       groundAlbedo_[c] / PI * lit * std::exp(-depth[k] - along.opticalDepth[k]);
+    ground.straight[c] = groundAlbedo_[c] / PI * lit * std::exp(-less[k]);
+    ground.unscattered[c] = groundAlbedo_[c] / PI * lit * std::exp(-all[k]);
   }
-  return once;
+  return ground;
 }
 
 // Besides the moments: the first order with the peak's light counted as unscattered, less the first
-// order itself; and what comes through the peak from beyond the ray's end.
-SkyColor SkyField::higherOrdersAlong(double altitude, double viewMu, double sunMu, double viewSun,
-                                     double distance, const SkyColor& fogPhase) const {
-  SkyColor result = radianceAlong(altitude, viewMu, sunMu, viewSun, distance);
+// order itself; and what comes through the peak from beyond the ray's end. Of that, the ground's
+// own light is what also misses the peak.
+SkyField::Parts SkyField::higherOrders(double altitude, double viewMu, double sunMu, double viewSun,
+                                       double distance, const SkyColor& fogPhase) const {
+  Parts result = momentsAlong(altitude, viewMu, sunMu, viewSun, distance, EYE_STEPS);
   if (!(peak_ > 0) || !(air_.fogExtinction > 0)) {
     return result;
   }
   SkyColor phase{};
   for (size_t c = 0; c < 3; ++c) {
-    // In its own direction the peak is what is left out.
     const double top = (1 + 3 * fogMoments_[0][c] + 5 * fogMoments_[1][c]) / (4 * PI);
-    phase[c] = std::min(fogPhase[c] / (1 - eyePeak_), top);
-  }
-  const Once bright = onceAlong(eye_, altitude, viewMu, sunMu, viewSun, distance, phase);
-  const Once dim = onceAlong(attenuated_, altitude, viewMu, sunMu, viewSun, distance, phase);
-  for (size_t c = 0; c < 3; ++c) {
-    result[c] += std::max(bright.radiance[c] - dim.radiance[c], 0.0);
+    phase[c] = std::min(fogPhase[c] / (1 - eyePeak_), fogBound_[c] > 0 ? fogBound_[c] : top);
   }
   const double radius = air_.planetRadius;
-  const double ground = groundDistance(altitude, viewMu, radius);
-  const bool endsInAir = !(ground >= 0 && ground <= distance) && distance < 1e7;
-  if (endsInAir) {
+  const double r = radius + altitude;
+  const double toGround = groundDistance(altitude, viewMu, radius);
+  const bool ends = toGround >= 0 && toGround <= distance;
+  const double reach = ends ? toGround : distance;
+  const Once bright = onceAlong(eye_, altitude, viewMu, sunMu, viewSun, reach, phase);
+  const Once dim = onceAlong(attenuated_, altitude, viewMu, sunMu, viewSun, reach, phase);
+  SkyColor through{};
+  for (size_t c = 0; c < 3; ++c) {
+    result.air[c] += std::max(bright.radiance[c] - dim.radiance[c], 0.0);
+    through[c] = std::max(std::exp(-bright.depth[c]) - std::exp(-dim.depth[c]), 0.0);
+  }
+  if (ends) {
+    const Lit lit = groundAt(std::clamp((r * sunMu + reach * viewSun) / radius, -1.0, 1.0));
+    for (size_t c = 0; c < 3; ++c) {
+      const double straight = std::exp(std::min(bright.depth[c] - dim.depth[c], 0.0));
+      result.air[c] += through[c] * lit.straight[c] + (1 - straight) * result.ground[c];
+      result.ground[c] = straight * result.ground[c] +
+                         std::exp(-dim.depth[c]) * (lit.straight[c] - lit.unscattered[c]);
+    }
+  } else if (distance < 1e7) {
     const double there = altitudeAlongRay(altitude, viewMu, radius, distance);
-    const double r = radius + altitude;
     const double scale = 1 / (radius + there);
     const double view = std::clamp((r * viewMu + distance) * scale, -1.0, 1.0);
     const double sun = std::clamp((r * sunMu + distance * viewSun) * scale, -1.0, 1.0);
     constexpr double INF = std::numeric_limits<double>::infinity();
     const SkyColor more = radianceAlong(there, view, sun, viewSun, INF);
-    const Once first = onceAlong(eye_, there, view, sun, viewSun, INF, phase);
+    const double beyond = groundDistance(there, view, radius);
+    const Once first =
+        onceAlong(eye_, there, view, sun, viewSun, beyond >= 0 ? beyond : INF, phase);
+    SkyColor ground{};
+    if (beyond >= 0) {
+      const double foot = ((radius + there) * sun + beyond * viewSun) / radius;
+      ground = groundAt(std::clamp(foot, -1.0, 1.0)).straight;
+    }
     for (size_t c = 0; c < 3; ++c) {
-      const double through = std::max(std::exp(-bright.depth[c]) - std::exp(-dim.depth[c]), 0.0);
-      result[c] += through * (more[c] + first.radiance[c]);
+      const double seen = first.radiance[c] + std::exp(-first.depth[c]) * ground[c];
+      result.air[c] += through[c] * (more[c] + seen);
     }
   }
   return result;
+}
+
+SkyColor SkyField::higherOrdersAlong(double altitude, double viewMu, double sunMu, double viewSun,
+                                     double distance, const SkyColor& fogPhase) const {
+  return sumOf(higherOrders(altitude, viewMu, sunMu, viewSun, distance, fogPhase));
 }
 
 }  // namespace welkin

@@ -45,6 +45,8 @@ class SkyField {
   // xx, yy, zz, xy: integral of L w w^T over the sphere; x, y: of L w. 1/sr times sr.
   static constexpr size_t MOMENTS = 6;
   using Moments = std::array<SkyColor, MOMENTS>;
+  // Along a ray that is looked at.
+  static constexpr int EYE_STEPS = 48;
 
   // `air` as the moments see it, with the fog's forward peak taken out.
   const AirInput& air() const { return air_; }
@@ -52,33 +54,62 @@ class SkyField {
   // Diffuse light on horizontal ground at sea level.
   SkyColor irradianceAt(double sunMu) const;
   int orders() const { return orders_; }
+  // What GPU passes gather by: the air as the eye sees it and its fog's moments, the share of the
+  // fog's peak that it does not see, the fog's moments without all of the peak, and the tables
+  // themselves: [altitude][sun][moment][4 colours] and [sun][4 colours].
+  const AirInput& eyeAir() const { return eye_; }
+  const std::array<SkyColor, 2>& eyeMoments() const { return eyeMoments_; }
+  double eyePeak() const { return eyePeak_; }
+  // Largest value of the fog's phase function without the eye's part of its peak, RGB, 1/sr.
+  const SkyColor& fogBound() const { return fogBound_; }
+  void boundFogPhase(const SkyColor& bound) { fogBound_ = bound; }
+  const std::array<SkyColor, 2>& fogMoments() const { return fogMoments_; }
+  const std::vector<float>& moments() const { return moments_; }
+  const std::vector<float>& irradiance() const { return irradiance_; }
   // Highest altitude of the moments.
   double top() const;
   // Of the light's irradiance, what the fog turns within its peak on the way: it is not in the
   // moments, and comes from the light's direction as near as they can tell.
   SkyColor peakIrradianceAt(double altitude, double sunMu) const;
 
-  // Radiance, 1/sr, of light scattered or reflected at least twice that comes along a ray of
-  // `distance` m (may be infinite), and from the ground if the ray ends there. fogPhase: RGB, 1/sr,
-  // at the ray's angle with the light.
+  // What a ray brings, 1/sr: light that air and fog send along it on the way, and what its end on
+  // the ground sends through them.
+  struct Parts {
+    SkyColor air{};
+    SkyColor ground{};
+  };
+  // Of light scattered or reflected at least twice that comes along a ray of `distance` m (may be
+  // infinite). fogPhase: RGB, 1/sr, at the ray's angle with the light. Light of the ground that the
+  // fog turns within its peak is the air's part.
+  Parts higherOrders(double altitude, double viewMu, double sunMu, double viewSun, double distance,
+                     const SkyColor& fogPhase) const;
+  // Both parts.
   SkyColor higherOrdersAlong(double altitude, double viewMu, double sunMu, double viewSun,
                              double distance, const SkyColor& fogPhase) const;
   // The same from the moments alone: without light that the fog turned only within its peak but
   // once, neither on its way to the ray nor on the ray.
   SkyColor radianceAlong(double altitude, double viewMu, double sunMu, double viewSun,
-                         double distance, int steps = 48) const;
+                         double distance, int steps = EYE_STEPS) const;
 
  private:
-  friend SkyField solveSkyField(const SkyFieldInput& input, const SkyFieldSteps& steps);
+  friend class SkyFieldSolver;
 
-  // First order and light of the ground along a ray that ends at `distance`, in air of which
-  // `peak` is taken off the fog's phase function.
+  Parts momentsAlong(double altitude, double viewMu, double sunMu, double viewSun, double distance,
+                     int steps) const;
+  // First order along a ray that ends at `distance`.
   struct Once {
     SkyColor radiance;
     SkyColor depth;
   };
   Once onceAlong(const AirInput& air, double altitude, double viewMu, double sunMu, double viewSun,
                  double distance, const SkyColor& phase) const;
+  // What the ground sends where the cosine of the light is sunMu: all but diffuse light, which the
+  // fog may have turned within its peak, and the part that nothing has turned.
+  struct Lit {
+    SkyColor straight;
+    SkyColor unscattered;
+  };
+  Lit groundAt(double sunMu) const;
 
   AirInput air_;  // without the peak
   // Along a ray that is looked at, only a part of the peak counts as unscattered: eyeShare().
@@ -87,6 +118,7 @@ class SkyField {
   double lightAngularRadius_ = 0;
   double peak_ = 0;
   double eyePeak_ = 0;
+  SkyColor fogBound_{};
   std::array<SkyColor, 2> fogMoments_{};  // without the peak
   std::array<SkyColor, 2> eyeMoments_{};
   SkyColor groundAlbedo_{};

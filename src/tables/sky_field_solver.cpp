@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Successive orders of scattering for SkyField.
+#include "tables/sky_field_solver.hpp"
+
 #include <limits>
 
 #include "model/air_input.hpp"
 #include "model/model.hpp"
-#include "tables/sky_field.hpp"
-#include "tables/sky_ray.hpp"
+#include "tables/sky_fan.hpp"
+#include "tables/sky_light.hpp"
+#include "tables/sky_zenith.hpp"
 
 namespace welkin {
 namespace {
@@ -20,203 +23,238 @@ constexpr size_t SUNS = SkyField::SUNS;
 constexpr double LAST_SHARE = 2e-3;
 constexpr double LARGEST_RATIO = 0.98;
 
-struct Zenith {
-  double cosine;
-  double weight;
-};
-
-// Gauss nodes in the square root of the distance from the horizon, where radiance changes fastest.
-std::vector<Zenith> zenithNodes(double horizon, int count) {
-  std::vector<Zenith> nodes;
-  for (int i = 0; i < count; ++i) {
-    // Newton's iteration for the roots of P_n, from the usual guess.
-    double x = std::cos(PI * (i + 0.75) / (count + 0.5));
-    double slope = 1;
-    for (int k = 0; k < 50; ++k) {
-      double p0 = 1;
-      double p1 = x;
-      for (int l = 2; l <= count; ++l) {
-        const double p2 = ((2 * l - 1) * x * p1 - (l - 1) * p0) / l;
-        p0 = p1;
-        p1 = p2;
-      }
-      slope = count * (x * p1 - p0) / (x * x - 1);
-      x -= p1 / slope;
-    }
-    const double s = 0.5 + 0.5 * x;
-    const double weight = 1 / ((1 - x * x) * slope * slope) * 2 * s;
-    nodes.push_back({horizon + (1 - horizon) * s * s, weight * (1 - horizon)});
-    nodes.push_back({horizon - (1 + horizon) * s * s, weight * (1 + horizon)});
-  }
-  return nodes;
-}
-
 // One order of scattering at every node.
 struct Order {
-  std::vector<float> moments;
-  std::vector<float> irradiance;
+  std::vector<float> moments = std::vector<float>(ALTITUDES * SUNS * VALUES);
+  std::vector<float> irradiance = std::vector<float>(SUNS * LANES);
 };
 
-class Solver {
- public:
-  Solver(const SkyFieldInput& input, const AirInput& scaled, const std::array<SkyColor, 2>& chi,
-         const SkyFieldSteps& steps)
-      : input_(scaled),
-        air_(airFrom(scaled)),
-        axes_(scaled),
-        terms_(fogTerms(chi)),
-        albedo_(input.groundAlbedo),
-        radius_(input.lightAngularRadius),
-        steps_(steps) {
-    for (size_t a = 0; a < ALTITUDES; ++a) {
-      altitudes_.push_back(axes_.altitudeAt(static_cast<double>(a) / (ALTITUDES - 1)));
-    }
-  }
+// All directions of one zenith angle, and the steps along them. They are the same in every order;
+// the first one plans them.
+struct Cone {
+  double cosine;
+  double weight;  // solid angle of one azimuth and its mirror image
+  SkyRay ray;
+};
 
-  // Of the light itself if `previous` is null.
-  Order gather(const Order* previous) const {
-    Order next{std::vector<float>(ALTITUDES * SUNS * VALUES), std::vector<float>(SUNS * LANES)};
-    for (size_t a = 0; a < ALTITUDES; ++a) {
-      const double horizon = horizonMu(altitudes_[a], air_.planetRadius);
-      for (const Zenith& zenith : zenithNodes(horizon, steps_.zenithNodes)) {
-        gatherCone(previous, a, zenith, next);
-      }
-    }
-    return next;
-  }
+struct Angle {
+  double cosine;
+  double sine;
+};
+
+// Takes one order of scattering to the next.
+class Gatherer {
+ public:
+  Gatherer(const SkyFieldInput& input, const AirInput& scaled, const std::array<SkyColor, 2>& chi,
+           const SkyFieldSteps& steps);
+
+  // One altitude of an order that follows `previous`, or of the light itself if that is null.
+  void gather(const Order* previous, size_t altitude, Order& next);
 
  private:
-  struct Light {
-    Lanes transmittance;
-  };
-  Light lightAt(double altitude, double sunMu) const {
-    const double visible = lightVisibility(air_, altitude, sunMu, radius_);
-    Light light{};
-    if (visible > 0) {
-      const vec3 depth = lightOpticalDepth(air_, altitude, sunMu);
-      for (int c = 0; c < 3; ++c) {
-        light.transmittance[static_cast<size_t>(c)] =
-            static_cast<float>(visible * std::exp(-depth[c]));
-      }
-    }
-    return light;
-  }
+  void gatherCone(const Order* previous, size_t altitude, const Cone& cone);
+  void addScattered(const Order& previous, const SkyStep& step, float radius, float viewMu);
+  void addSunlit(const SkyStep& step, float radius);
+  void addGround(const Order* previous, const Cone& cone, float radius);
+  void addMoments(const Cone& cone, size_t altitude, Order& next) const;
 
-  // All azimuths of one zenith angle for every sun; the other half of the circle is their mirror.
-  void gatherCone(const Order* previous, size_t a, const Zenith& zenith, Order& next) const {
-    const SkyRay plan = planRay(input_, axes_, altitudes_[a], zenith.cosine,
-                                std::numeric_limits<double>::infinity(), steps_.steps);
-    const auto half = static_cast<size_t>(steps_.azimuths / 2);
-    const double sine = std::sqrt((1 - zenith.cosine) * (1 + zenith.cosine));
-    std::vector<SkyAim> aims;
-    for (size_t s = 0; s < SUNS; ++s) {
-      const double sunMu = SkyAxes::sunAt(static_cast<double>(s) / (SUNS - 1));
-      const double sunSine = std::sqrt((1 - sunMu) * (1 + sunMu));
-      for (size_t j = 0; j < half; ++j) {
-        const double azimuth = PI * (static_cast<double>(j) + 0.5) / static_cast<double>(half);
-        const double viewSun = sine * std::cos(azimuth) * sunSine + zenith.cosine * sunMu;
-        aims.push_back({static_cast<float>(air_.planetRadius + altitudes_[a]),
-                        static_cast<float>(zenith.cosine), static_cast<float>(sunMu),
-                        static_cast<float>(viewSun)});
-      }
-    }
-    std::vector<Lanes> radiance(aims.size());
-    for (const SkyStep& step : plan.steps) {
-      if (previous != nullptr) {
-        addScattered(*previous, step, aims, radiance);
-      } else {
-        addSunlit(step, aims, radiance);
-      }
-    }
-    for (size_t i = 0; i < aims.size(); ++i) {
-      if (plan.ground >= 0) {
-        addGround(previous, plan, aims[i], radiance[i]);
-      }
-      const double azimuth = PI * (static_cast<double>(i % half) + 0.5) / static_cast<double>(half);
-      const double weight = zenith.weight * 2 * PI / static_cast<double>(half);
-      const double x = sine * std::cos(azimuth);
-      const double y = zenith.cosine;
-      const double z = sine * std::sin(azimuth);
-      const double products[SkyField::MOMENTS] = {x * x, y * y, z * z, x * y, x, y};
-      float* out = next.moments.data() + (a * SUNS + i / half) * VALUES;
-      for (size_t k = 0; k < VALUES; ++k) {
-        out[k] += static_cast<float>(weight * products[k / LANES]) * radiance[i][k % LANES];
-      }
-      if (a == 0 && y > 0) {
-        for (size_t c = 0; c < LANES; ++c) {
-          next.irradiance[LANES * (i / half) + c] +=
-              static_cast<float>(weight * y) * radiance[i][c];
-        }
-      }
-    }
-  }
-
-  void addScattered(const Order& previous, const SkyStep& step, const std::vector<SkyAim>& aims,
-                    std::vector<Lanes>& radiance) const {
-    SunRow row;
-    blendAltitudes(previous.moments, step.high, 0, row.size(), row.data());
-    const bool fog = air_.fogExtinction > 0;
-    for (size_t i = 0; i < aims.size(); ++i) {
-      const SkyPlace place = placeAt(aims[i], step);
-      const SkyLight g = gatherMoments(row.data(), place.view, sunNode(place.sunMu));
-      for (size_t c = 0; c < LANES; ++c) {
-        radiance[i][c] += step.air[c] * RAYLEIGH * (g.mean[c] + g.square[c]);
-      }
-      if (fog) {
-        for (size_t c = 0; c < LANES; ++c) {
-          const float source = g.mean[c] + terms_.first[c] * g.along[c] +
-                               terms_.second[c] * (3 * g.square[c] - g.mean[c]);
-          radiance[i][c] += step.fog[c] * ISOTROPIC * std::max(source, 0.0F);
-        }
-      }
-    }
-  }
-
-  void addSunlit(const SkyStep& step, const std::vector<SkyAim>& aims,
-                 std::vector<Lanes>& radiance) const {
-    for (size_t i = 0; i < aims.size(); ++i) {
-      const SkyPlace place = placeAt(aims[i], step);
-      const Light light = lightAt(step.altitude, static_cast<double>(place.sunMu));
-      const float cosine = aims[i].viewSun;
-      const float rayleigh = RAYLEIGH * (1 + cosine * cosine);
-      for (size_t c = 0; c < 3; ++c) {
-        const float fog =
-            1 + terms_.first[c] * cosine + terms_.second[c] * (3 * cosine * cosine - 1);
-        radiance[i][c] += light.transmittance[c] *
-                          (step.air[c] * rayleigh + step.fog[c] * ISOTROPIC * std::max(fog, 0.0F));
-      }
-    }
-  }
-
-  void addGround(const Order* previous, const SkyRay& plan, const SkyAim& aim,
-                 Lanes& radiance) const {
-    const double foot = (static_cast<double>(aim.radius) * static_cast<double>(aim.sunMu) +
-                         plan.ground * static_cast<double>(aim.viewSun)) /
-                        air_.planetRadius;
-    const double mu = std::clamp(foot, -1.0, 1.0);
-    Lanes irradiance{};
-    if (previous == nullptr) {
-      irradiance = lightAt(0, mu).transmittance;
-      for (float& one : irradiance) {
-        one *= static_cast<float>(std::max(mu, 0.0));
-      }
-    } else {
-      irradiance = irradianceIn(previous->irradiance, mu);
-    }
-    for (size_t c = 0; c < 3; ++c) {
-      radiance[c] += plan.atGround[c] * static_cast<float>(albedo_[c] / PI) * irradiance[c];
-    }
-  }
-
-  AirInput input_;
-  Air air_;
+  AirInput scaled_;
   SkyAxes axes_;
+  int stepCount_;
+  Air air_;
   FogTerms terms_;
   SkyColor albedo_;
-  double radius_;
-  SkyFieldSteps steps_;
+  double lightRadius_;
+  std::array<Angle, SUNS> suns_{};  // from the up
+  Suns sunMu_{};
   std::vector<double> altitudes_;
+  std::vector<Angle> azimuths_;  // of half the circle
+  std::vector<Cone> cones_;      // by altitude
+  // Of the cone in work: one fan for each azimuth.
+  std::vector<SkyFan> fans_;
+  SkySource airs_{};
+  SkySource fogs_{};
 };
+
+Gatherer::Gatherer(const SkyFieldInput& input, const AirInput& scaled,
+                   const std::array<SkyColor, 2>& chi, const SkyFieldSteps& steps)
+    : scaled_(scaled),
+      axes_(scaled),
+      stepCount_(steps.steps),
+      air_(airFrom(scaled)),
+      terms_(fogTerms(chi)),
+      albedo_(input.groundAlbedo),
+      lightRadius_(input.lightAngularRadius) {
+  for (size_t s = 0; s < SUNS; ++s) {
+    const double mu = SkyAxes::sunAt(static_cast<double>(s) / (SUNS - 1));
+    suns_[s] = {mu, std::sqrt((1 - mu) * (1 + mu))};
+    sunMu_[s] = static_cast<float>(mu);
+  }
+  // The other half of the circle is their mirror image.
+  const int half = steps.azimuths / 2;
+  for (int j = 0; j < half; ++j) {
+    const double azimuth = PI * (j + 0.5) / half;
+    azimuths_.push_back({std::cos(azimuth), std::sin(azimuth)});
+  }
+  fans_.resize(azimuths_.size());
+  const std::vector<Zenith> nodes = gaussNodes(steps.zenithNodes);
+  for (size_t a = 0; a < ALTITUDES; ++a) {
+    const double altitude = axes_.altitudeAt(static_cast<double>(a) / (ALTITUDES - 1));
+    altitudes_.push_back(altitude);
+    const double horizon = horizonMu(altitude, air_.planetRadius);
+    for (const Zenith& zenith : zenithNodes(horizon, nodes)) {
+      cones_.push_back({zenith.cosine, zenith.weight * 2 * PI / half, {}});
+      cones_.back().ray.steps.reserve(static_cast<size_t>(stepCount_));
+    }
+  }
+}
+
+void Gatherer::gather(const Order* previous, size_t altitude, Order& next) {
+  std::fill_n(next.moments.data() + altitude * SUNS * VALUES, SUNS * VALUES, 0.0F);
+  if (altitude == 0) {
+    std::fill(next.irradiance.begin(), next.irradiance.end(), 0.0F);
+  }
+  const size_t count = cones_.size() / ALTITUDES;
+  for (size_t i = altitude * count; i < (altitude + 1) * count; ++i) {
+    if (previous == nullptr) {
+      planRay(scaled_, axes_, altitudes_[altitude], cones_[i].cosine,
+              std::numeric_limits<double>::infinity(), stepCount_, cones_[i].ray);
+    }
+    gatherCone(previous, altitude, cones_[i]);
+    addMoments(cones_[i], altitude, next);
+  }
+}
+
+void Gatherer::gatherCone(const Order* previous, size_t altitude, const Cone& cone) {
+  const double sine = std::sqrt((1 - cone.cosine) * (1 + cone.cosine));
+  for (size_t j = 0; j < fans_.size(); ++j) {
+    for (size_t s = 0; s < SUNS; ++s) {
+      fans_[j].viewSun[s] = static_cast<float>(sine * azimuths_[j].cosine * suns_[s].sine +
+                                               cone.cosine * suns_[s].cosine);
+      fans_[j].radiance[s] = {};
+    }
+  }
+  const auto radius = static_cast<float>(air_.planetRadius + altitudes_[altitude]);
+  for (const SkyStep& step : cone.ray.steps) {
+    if (previous != nullptr) {
+      addScattered(*previous, step, radius, static_cast<float>(cone.cosine));
+    } else {
+      addSunlit(step, radius);
+    }
+  }
+  if (cone.ray.ground >= 0) {
+    addGround(previous, cone, radius);
+  }
+}
+
+void Gatherer::addScattered(const Order& previous, const SkyStep& step, float radius,
+                            float viewMu) {
+  const float y = std::clamp((radius * viewMu + step.distance) * (1 / step.radius), -1.0F, 1.0F);
+  const float flat = std::sqrt((1 - y) * (1 + y));
+  const bool fog = air_.fogExtinction > 0;
+  const float* moments = previous.moments.data() + step.high.index * SUNS * VALUES;
+  airSource(moments, step, y, flat, airs_);
+  if (fog) {
+    fogSource(moments, step, terms_, y, flat, fogs_);
+  }
+  for (SkyFan& fan : fans_) {
+    const SkyPlaces places =
+        placesOf(sunsAt(step, radius, sunMu_, fan.viewSun), fan.viewSun, y, flat);
+    addAir(airs_, places, fan);
+    if (fog) {
+      addFog(fogs_, places, fan);
+    }
+  }
+}
+
+void Gatherer::addSunlit(const SkyStep& step, float radius) {
+  const LightAtAltitude light(air_, step.altitude, lightRadius_);
+  const FogTerms chi = terms_;
+  Lanes air;
+  Lanes fog;
+  for (size_t c = 0; c < LANES; ++c) {
+    air[c] = RAYLEIGH * step.air[c];
+    fog[c] = ISOTROPIC * step.fog[c];
+  }
+  for (SkyFan& fan : fans_) {
+    const Suns mu = sunsAt(step, radius, sunMu_, fan.viewSun);
+    const std::array<Lanes, SUNS> transmittance = light.at(mu);
+    for (size_t s = 0; s < SUNS; ++s) {
+      const float cosine = fan.viewSun[s];
+      const float square = cosine * cosine;
+      Lanes radiance = fan.radiance[s];
+      for (size_t c = 0; c < LANES; ++c) {
+        const float phase = 1 + chi.first[c] * cosine + chi.second[c] * (3 * square - 1);
+        const float scattered = air[c] * (1 + square) + fog[c] * std::max(phase, 0.0F);
+        radiance[c] += transmittance[s][c] * scattered;
+      }
+      fan.radiance[s] = radiance;
+    }
+  }
+}
+
+void Gatherer::addGround(const Order* previous, const Cone& cone, float radius) {
+  Lanes albedo{};
+  for (size_t c = 0; c < 3; ++c) {
+    albedo[c] = cone.ray.atGround[c] * static_cast<float>(albedo_[c] / PI);
+  }
+  const LightAtAltitude light(air_, 0, lightRadius_);
+  for (SkyFan& fan : fans_) {
+    Suns mu;  // at the foot
+    for (size_t s = 0; s < SUNS; ++s) {
+      const double foot = (static_cast<double>(radius) * static_cast<double>(sunMu_[s]) +
+                           cone.ray.ground * static_cast<double>(fan.viewSun[s])) /
+                          air_.planetRadius;
+      mu[s] = static_cast<float>(std::clamp(foot, -1.0, 1.0));
+    }
+    std::array<Lanes, SUNS> irradiance;
+    if (previous == nullptr) {
+      irradiance = light.at(mu);
+      for (size_t s = 0; s < SUNS; ++s) {
+        for (float& one : irradiance[s]) {
+          one *= std::max(mu[s], 0.0F);
+        }
+      }
+    } else {
+      for (size_t s = 0; s < SUNS; ++s) {
+        irradiance[s] = irradianceIn(previous->irradiance, static_cast<double>(mu[s]));
+      }
+    }
+    for (size_t s = 0; s < SUNS; ++s) {
+      for (size_t c = 0; c < LANES; ++c) {
+        fan.radiance[s][c] += albedo[c] * irradiance[s][c];
+      }
+    }
+  }
+}
+
+void Gatherer::addMoments(const Cone& cone, size_t altitude, Order& next) const {
+  const double sine = std::sqrt((1 - cone.cosine) * (1 + cone.cosine));
+  const double y = cone.cosine;
+  for (size_t j = 0; j < fans_.size(); ++j) {
+    const double x = sine * azimuths_[j].cosine;
+    const double z = sine * azimuths_[j].sine;
+    const double products[SkyField::MOMENTS] = {x * x, y * y, z * z, x * y, x, y};
+    float weights[SkyField::MOMENTS];
+    for (size_t k = 0; k < SkyField::MOMENTS; ++k) {
+      weights[k] = static_cast<float>(cone.weight * products[k]);
+    }
+    for (size_t s = 0; s < SUNS; ++s) {
+      const Lanes radiance = fans_[j].radiance[s];
+      float* out = next.moments.data() + (altitude * SUNS + s) * VALUES;
+      for (size_t k = 0; k < SkyField::MOMENTS; ++k) {
+        for (size_t c = 0; c < LANES; ++c) {
+          out[k * LANES + c] += weights[k] * radiance[c];
+        }
+      }
+      if (altitude == 0 && y > 0) {
+        for (size_t c = 0; c < LANES; ++c) {
+          next.irradiance[LANES * s + c] += weights[SkyField::MOMENTS - 1] * radiance[c];
+        }
+      }
+    }
+  }
+}
 
 void add(std::vector<float>& sum, const std::vector<float>& more, float scale) {
   for (size_t i = 0; i < sum.size(); ++i) {
@@ -264,7 +302,20 @@ void takeOff(double peak, const SkyFieldInput& input, AirInput& air,
 
 }  // namespace
 
-SkyField solveSkyField(const SkyFieldInput& input, const SkyFieldSteps& steps) {
+struct SkyFieldSolver::State {
+  SkyFieldInput input;
+  int maxOrders;
+  SkyField field;
+  Gatherer gatherer;
+  std::array<Order, 2> orders;  // the one in work and its predecessor
+  double last = 0;              // energy of the predecessor
+  size_t rows = 0;
+  bool done = false;
+
+  Order& order(int number) { return orders[static_cast<size_t>(number % 2)]; }
+};
+
+SkyFieldSolver::SkyFieldSolver(const SkyFieldInput& input, const SkyFieldSteps& steps) {
   SkyField field;
   field.groundAlbedo_ = input.groundAlbedo;
   field.lightAngularRadius_ = input.lightAngularRadius;
@@ -279,27 +330,71 @@ SkyField solveSkyField(const SkyFieldInput& input, const SkyFieldSteps& steps) {
   for (double& albedo : field.attenuated_.fogAlbedo) {
     albedo *= 1 - field.eyePeak_;
   }
-  const Solver solver(input, field.air_, field.fogMoments_, steps);
-  Order order = solver.gather(nullptr);
-  field.moments_ = order.moments;
-  field.irradiance_ = order.irradiance;
-  field.orders_ = 1;
-  double last = energy(order.moments);
-  while (field.orders_ < steps.maxOrders && last > 0) {
-    order = solver.gather(&order);
-    ++field.orders_;
-    const double now = energy(order.moments);
-    const double ratio = std::min(now / last, LARGEST_RATIO);
-    const bool ends = now < LAST_SHARE * energy(field.moments_) || field.orders_ == steps.maxOrders;
-    const double scale = ends ? 1 / (1 - ratio) : 1;
-    add(field.moments_, order.moments, static_cast<float>(scale));
-    add(field.irradiance_, order.irradiance, static_cast<float>(scale));
-    last = now;
-    if (ends) {
-      break;
+  field.moments_.resize(ALTITUDES * SUNS * VALUES);
+  field.irradiance_.resize(SUNS * LANES);
+  Gatherer gatherer(input, field.air_, field.fogMoments_, steps);
+  state_ = std::make_unique<State>(
+      State{input, steps.maxOrders, std::move(field), std::move(gatherer), {}});
+}
+
+SkyFieldSolver::SkyFieldSolver(SkyFieldSolver&&) noexcept = default;
+SkyFieldSolver& SkyFieldSolver::operator=(SkyFieldSolver&&) noexcept = default;
+SkyFieldSolver::~SkyFieldSolver() = default;
+
+bool SkyFieldSolver::advance(size_t rows) {
+  State& state = *state_;
+  for (; rows > 0 && !state.done; --rows) {
+    const int number = state.field.orders_;
+    const Order* previous = number > 0 ? &state.order(number - 1) : nullptr;
+    state.gatherer.gather(previous, state.rows % ALTITUDES, state.order(number));
+    ++state.rows;
+    if (state.rows % ALTITUDES == 0) {
+      finishOrder();
     }
   }
-  return field;
+  return state.done;
+}
+
+void SkyFieldSolver::finishOrder() {
+  State& state = *state_;
+  SkyField& field = state.field;
+  const Order& order = state.order(field.orders_);
+  ++field.orders_;
+  const double now = energy(order.moments);
+  bool ends = field.orders_ >= state.maxOrders;
+  double scale = 1;
+  if (field.orders_ > 1) {
+    const double ratio = std::min(now / state.last, LARGEST_RATIO);
+    ends = ends || now < LAST_SHARE * energy(field.moments_);
+    scale = ends ? 1 / (1 - ratio) : 1;
+  }
+  add(field.moments_, order.moments, static_cast<float>(scale));
+  add(field.irradiance_, order.irradiance, static_cast<float>(scale));
+  state.last = now;
+  state.done = ends || !(now > 0);
+}
+
+bool SkyFieldSolver::done() const {
+  return state_->done;
+}
+
+size_t SkyFieldSolver::rows() const {
+  return state_->rows;
+}
+
+const SkyFieldInput& SkyFieldSolver::input() const {
+  return state_->input;
+}
+
+SkyField SkyFieldSolver::take() {
+  return std::move(state_->field);
+}
+
+SkyField solveSkyField(const SkyFieldInput& input, const SkyFieldSteps& steps) {
+  SkyFieldSolver solver(input, steps);
+  while (!solver.advance(ALTITUDES)) {
+  }
+  return solver.take();
 }
 
 }  // namespace welkin

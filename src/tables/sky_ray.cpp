@@ -9,33 +9,42 @@ namespace {
 
 using namespace model::f64;
 
-// Stops of `count` steps, dense towards the eye, or towards the densest point of a ray that sinks.
-std::vector<double> stopsOf(double lowest, double reach, int count) {
-  std::vector<double> stops;
-  const auto quadratic = [&](double from, double to, int n, bool denseAtEnd) {
-    for (int i = 0; i < n; ++i) {
-      const double x = static_cast<double>(i) / n;
-      stops.push_back(from + (to - from) * (denseAtEnd ? x * (2 - x) : x * x));
-    }
+// End of step i of `count`: dense towards the eye, or towards the densest point of a ray that
+// sinks.
+double stopAt(double lowest, double reach, int count, int i) {
+  const auto quadratic = [](double from, double to, int n, int k, bool denseAtEnd) {
+    const double x = static_cast<double>(k) / n;
+    return from + (to - from) * (denseAtEnd ? x * (2 - x) : x * x);
   };
-  if (lowest <= 0) {
-    quadratic(0, reach, count, false);
-  } else if (lowest >= reach) {
-    quadratic(0, reach, count, true);
-  } else {
-    quadratic(0, lowest, count / 2, true);
-    quadratic(lowest, reach, count - count / 2, false);
+  const int half = count / 2;
+  if (i >= count) {
+    return reach;
   }
-  stops.push_back(reach);
-  return stops;
+  if (lowest <= 0) {
+    return quadratic(0, reach, count, i, false);
+  }
+  if (lowest >= reach) {
+    return quadratic(0, reach, count, i, true);
+  }
+  return i < half ? quadratic(0, lowest, half, i, true)
+                  : quadratic(lowest, reach, count - half, i - half, false);
 }
 
 }  // namespace
 
-SkyRay planRay(const AirInput& input, const SkyAxes& axes, double altitude, double viewMu,
+SkyRay planRay(const AirInput& air, const SkyAxes& axes, double altitude, double viewMu,
                double distance, int count) {
-  const Air air = airFrom(input);
   SkyRay plan;
+  plan.steps.reserve(static_cast<size_t>(count));
+  planRay(air, axes, altitude, viewMu, distance, count, plan);
+  return plan;
+}
+
+void planRay(const AirInput& input, const SkyAxes& axes, double altitude, double viewMu,
+             double distance, int count, SkyRay& plan) {
+  const Air air = airFrom(input);
+  plan.steps.clear();
+  plan.ground = -1;
   const double ground = groundDistance(altitude, viewMu, air.planetRadius);
   if (ground >= 0 && ground <= distance) {
     plan.ground = ground;
@@ -60,12 +69,11 @@ SkyRay planRay(const AirInput& input, const SkyAxes& axes, double altitude, doub
     return air.airScattering[static_cast<int>(c)] * columns[0] + air.fogExtinction * columns[1];
   };
   if (path.reach > 0) {
-    const std::vector<double> stops = stopsOf(path.lowest, path.reach, count);
     AirPoint near = airPoint(air, path, 0.0);
-    for (size_t i = 0; i + 1 < stops.size(); ++i) {
-      const AirPoint far = airPoint(air, path, stops[i + 1]);
+    for (int i = 0; i < count; ++i) {
+      const AirPoint far = airPoint(air, path, stopAt(path.lowest, path.reach, count, i + 1));
       const AirSpan span = airSpan(air, path, near, far);
-      const double length = stops[i + 1] - stops[i];
+      const double length = far.distance - near.distance;
       SkyStep step{};
       double own[3];
       double start[3];
@@ -88,7 +96,7 @@ SkyRay planRay(const AirInput& input, const SkyAxes& axes, double altitude, doub
       // Where the light comes from in the mean, by the attenuation in the middle of the spectrum.
       const double centre = middleDepth > 1e-3 ? 1 / middleDepth - 1 / std::expm1(middleDepth)
                                                : 0.5 - middleDepth / 12;
-      const double at = stops[i] + centre * length;
+      const double at = near.distance + centre * length;
       step.distance = static_cast<float>(before + at);
       step.altitude = altitudeAlongRay(path.altitude, path.viewMu, air.planetRadius, at);
       step.radius = static_cast<float>(air.planetRadius + step.altitude);
@@ -100,7 +108,6 @@ SkyRay planRay(const AirInput& input, const SkyAxes& axes, double altitude, doub
   for (size_t c = 0; c < 3; ++c) {
     plan.atGround[c] = static_cast<float>(std::exp(-depthOf(c)));
   }
-  return plan;
 }
 
 namespace {

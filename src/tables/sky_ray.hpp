@@ -25,6 +25,9 @@ struct SkyRay {
 // Through `air` from an altitude, seen under the cosine viewMu to the up, over at most `distance`.
 SkyRay planRay(const AirInput& air, const SkyAxes& axes, double altitude, double viewMu,
                double distance, int count);
+// The same into memory that is there: allocates nothing if `plan.steps` has room for `count`.
+void planRay(const AirInput& air, const SkyAxes& axes, double altitude, double viewMu,
+             double distance, int count, SkyRay& plan);
 
 // A ray at its origin, as far as it does not depend on the place.
 struct SkyAim {

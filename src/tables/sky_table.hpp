@@ -22,10 +22,11 @@ constexpr double SKY_SCALE_HEIGHTS = 10;
 // Altitudes and sun cosines <-> coordinates 0..1 of the table.
 class SkyAxes {
  public:
+  static constexpr double FOG_SHARE = 0.5;
   explicit SkyAxes(const AirInput& air)
       : top_(SKY_SCALE_HEIGHTS * air.airScaleHeight),
         fogHeight_(air.fogScaleHeight),
-        fogShare_(air.fogExtinction > 0 ? 0.5 : 0) {
+        fogShare_(air.fogExtinction > 0 ? FOG_SHARE : 0) {
     if (air.fogExtinction > 0) {
       top_ = std::max(top_, SKY_SCALE_HEIGHTS * fogHeight_);
     }

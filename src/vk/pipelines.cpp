@@ -8,6 +8,7 @@
 #include "composite_vert_spv.h"
 #include "eye_slices_comp_spv.h"
 #include "light_slices_comp_spv.h"
+#include "sky_table_comp_spv.h"
 
 namespace welkin::vk {
 namespace {
@@ -73,7 +74,7 @@ class Module {
 };
 
 struct Specialization {
-  std::array<VkSpecializationMapEntry, 10> entries{};
+  std::array<VkSpecializationMapEntry, MAX_CONSTANTS> entries{};
   VkSpecializationInfo info{};
   explicit Specialization(const PipelineKey& key) {
     for (uint32_t i = 0; i < entries.size(); ++i) {
@@ -108,7 +109,16 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
         binding(BIND_COMPOSITE_TARGET0, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE),
         binding(BIND_COMPOSITE_TARGET1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE),
         binding(BIND_COMPOSITE_COUNTERS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
-        binding(BIND_COMPOSITE_FOG_CURVE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)};
+        binding(BIND_COMPOSITE_FOG_CURVE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
+        binding(BIND_COMPOSITE_SKY_TABLE, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
+        binding(BIND_COMPOSITE_SKY_PEAK, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
+        binding(BIND_COMPOSITE_SKY_MOMENTS, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)};
+    const std::array sky{binding(BIND_SKY_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
+                         binding(BIND_SKY_MOMENTS, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
+                         binding(BIND_SKY_TABLE_STORAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE),
+                         binding(BIND_SKY_PEAK_STORAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE)};
+    skySet_ = makeSetLayout(device_, sky);
+    skyLayout_ = makeLayout(device_, skySet_);
     compositeSet_ = makeSetLayout(device_, composite);
     volumeLayout_ = makeLayout(device_, volumeSet_);
     compositeLayout_ = makeLayout(device_, compositeSet_);
@@ -132,6 +142,8 @@ void Pipelines::destroy() {
   }
   vk.DestroySampler(device, linear_, nullptr);
   vk.DestroySampler(device, nearest_, nullptr);
+  vk.DestroyPipelineLayout(device, skyLayout_, nullptr);
+  vk.DestroyDescriptorSetLayout(device, skySet_, nullptr);
   vk.DestroyPipelineLayout(device, volumeLayout_, nullptr);
   vk.DestroyPipelineLayout(device, compositeLayout_, nullptr);
   vk.DestroyDescriptorSetLayout(device, volumeSet_, nullptr);
@@ -164,6 +176,9 @@ VkPipeline Pipelines::makeCompute(const PipelineKey& key) {
   } else if (key.pass == Pass::EyeSlices) {
     code = eye_slices_comp_spv;
     layout = volumeLayout_;
+  } else if (key.pass == Pass::SkyTable) {
+    code = sky_table_comp_spv;
+    layout = skyLayout_;
   }
   const Module module(device_, code);
   const Specialization specialization(key);

@@ -11,13 +11,15 @@
 
 namespace welkin::vk {
 
-enum class Pass : uint32_t { LightSlices, EyeSlices, Composite, CompositeBlend };
+enum class Pass : uint32_t { LightSlices, EyeSlices, SkyTable, Composite, CompositeBlend };
+
+constexpr uint32_t MAX_CONSTANTS = 12;
 
 // Values of constant_id 0, 1, 2, ... of the pass; booleans are 0 or 1.
 struct PipelineKey {
   Pass pass = Pass::Composite;
   VkFormat format = VK_FORMAT_UNDEFINED;  // colour attachment of CompositeBlend
-  std::array<uint32_t, 10> constants{};
+  std::array<uint32_t, MAX_CONSTANTS> constants{};
   bool operator==(const PipelineKey&) const = default;
 };
 
@@ -33,7 +35,9 @@ enum VolumeBinding : uint32_t {
   BIND_FRAME_STATE = 10,
   BIND_VOLUME_STATE = 11,
   BIND_FOG_CURVE = 12,
-  VOLUME_BINDING_COUNT = 13
+  BIND_SKY_TABLE = 13,
+  BIND_SKY_PEAK = 14,
+  VOLUME_BINDING_COUNT = 15
 };
 enum CompositeBinding : uint32_t {
   BIND_COMPOSITE_FRAME = 0,
@@ -44,7 +48,17 @@ enum CompositeBinding : uint32_t {
   BIND_COMPOSITE_TARGET1 = 5,
   BIND_COMPOSITE_COUNTERS = 6,
   BIND_COMPOSITE_FOG_CURVE = 7,
-  COMPOSITE_BINDING_COUNT = 8
+  BIND_COMPOSITE_SKY_TABLE = 8,
+  BIND_COMPOSITE_SKY_PEAK = 9,
+  BIND_COMPOSITE_SKY_MOMENTS = 10,
+  COMPOSITE_BINDING_COUNT = 11
+};
+enum SkyTableBinding : uint32_t {
+  BIND_SKY_FRAME = 0,
+  BIND_SKY_MOMENTS = 1,
+  BIND_SKY_TABLE_STORAGE = 2,
+  BIND_SKY_PEAK_STORAGE = 3,
+  SKY_BINDING_COUNT = 4
 };
 
 class Pipelines {
@@ -61,6 +75,8 @@ class Pipelines {
 
   VkDescriptorSetLayout volumeSetLayout() const { return volumeSet_; }
   VkDescriptorSetLayout compositeSetLayout() const { return compositeSet_; }
+  VkDescriptorSetLayout skySetLayout() const { return skySet_; }
+  VkPipelineLayout skyLayout() const { return skyLayout_; }
   VkPipelineLayout volumeLayout() const { return volumeLayout_; }
   VkPipelineLayout compositeLayout() const { return compositeLayout_; }
   VkSampler linear() const { return linear_; }
@@ -79,7 +95,9 @@ class Pipelines {
   std::pmr::vector<Entry> entries_;
   VkDescriptorSetLayout volumeSet_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout compositeSet_ = VK_NULL_HANDLE;
+  VkDescriptorSetLayout skySet_ = VK_NULL_HANDLE;
   VkPipelineLayout volumeLayout_ = VK_NULL_HANDLE;
+  VkPipelineLayout skyLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout compositeLayout_ = VK_NULL_HANDLE;
   VkSampler linear_ = VK_NULL_HANDLE;
   VkSampler nearest_ = VK_NULL_HANDLE;

@@ -113,8 +113,11 @@ static void queries(WlkContext context) {
   WlkCapabilities capabilities;
   WlkRayBatch batch;
   WlkRay ray = {{0.0, 2.0, 0.0}, {0.6, 0.8, 0.0}, INFINITY};
+  WlkSkyMapQuery mapQuery;
+  float map[4 * 4 * 3];
   double radiance[3], transmittance[3], irradiance[3], ambient[WLK_AMBIENT_VALUES];
-  const double position[3] = {0.0, 2.0, 0.0};
+  double first[3], diffuse[3];
+  const double position[3] = {0.0, 2.0, 0.0}, up[3] = {0.0, 1.0, 0.0}, above[3] = {0.0, 9e4, 0.0};
 
   INIT(WLK_STRUCT_CAPABILITIES, capabilities);
   EXPECT(WLK_SUCCESS, wlkGetCapabilities(context, &capabilities));
@@ -128,10 +131,22 @@ static void queries(WlkContext context) {
   EXPECT(WLK_SUCCESS, wlkEvalSky(context, &batch, radiance, transmittance));
   REQUIRE(countBad(radiance, 3) == 0 && countBad(transmittance, 3) == 0);
   REQUIRE(radiance[2] > radiance[0]); /* a clear sky is blue */
+  batch.maxOrder = 1;
+  EXPECT(WLK_SUCCESS, wlkEvalSky(context, &batch, first, NULL));
+  REQUIRE(first[0] > 0.0 && first[0] < radiance[0]);
+  EXPECT(WLK_SUCCESS, wlkEvalTransmittance(context, position, above, transmittance));
+  REQUIRE(transmittance[2] > 0.0 && transmittance[0] > transmittance[2] && transmittance[0] < 1.0);
   EXPECT(WLK_SUCCESS, wlkEvalLight(context, 0, position, irradiance));
   REQUIRE(countBad(irradiance, 3) == 0 && irradiance[0] > irradiance[2]);
   EXPECT(WLK_SUCCESS, wlkEvalAmbient(context, position, ambient));
   REQUIRE(ambient[2] > ambient[0]);
+  EXPECT(WLK_SUCCESS, wlkEvalIrradiance(context, position, up, first, diffuse));
+  REQUIRE(first[0] > 0.99 * irradiance[0] && diffuse[2] > diffuse[0] && countBad(diffuse, 3) == 0);
+  INIT(WLK_STRUCT_SKY_MAP_QUERY, mapQuery);
+  REQUIRE(mapQuery.size == 32 && mapQuery.maxOrder == 0);
+  mapQuery.size = 4;
+  EXPECT(WLK_SUCCESS, wlkEvalSkyMap(context, &mapQuery, map));
+  REQUIRE(map[2] > 0.0f && isfinite(map[4 * 4 * 3 - 1]));
 }
 
 static void phaseQueries(WlkContext context, WlkMedium medium) {

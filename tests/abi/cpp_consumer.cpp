@@ -93,8 +93,9 @@ int main() {
   makeSetsTheHead<WlkErrorInfo, WlkContextInfo, WlkHeadlessInfo, WlkCapabilities, WlkPlanet, WlkSky,
                   WlkLight, WlkFog, WlkMediumInfo, WlkMediumOptics, WlkVolumeInfo, WlkVolumeUpload,
                   WlkViewInfo, WlkCamera, WlkQuality, WlkFrameInfo, WlkHeadlessTargets,
-                  WlkImageData, WlkFrameStats, WlkRayBatch, WlkPhaseQuery, WlkVulkanDeviceInfo,
-                  WlkVulkanRequirements, WlkVulkanImage, WlkVulkanViewTargets>();
+                  WlkImageData, WlkFrameStats, WlkRayBatch, WlkPhaseQuery, WlkSkyMapQuery,
+                  WlkVulkanDeviceInfo, WlkVulkanRequirements, WlkVulkanImage,
+                  WlkVulkanViewTargets>();
   movesOnly<welkin::Context>();
   movesOnly<welkin::Medium>();
   movesOnly<welkin::Volume>();

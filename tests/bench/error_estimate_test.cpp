@@ -57,7 +57,9 @@ const std::vector<Compared>& compareAll() {
 TEST(ErrorEstimate, IsWithinAFactorOfTwoForMostScenes) {
   constexpr double USUAL = 2.0;  // what view.h promises for most scenes
   constexpr double WORST = 4.0;
+  constexpr double NOISE = 0.01;  // smaller errors are not told from the references' noise
   size_t within = 0;
+  size_t rows = 0;
   const std::vector<Compared>& all = compareAll();
   ASSERT_GE(all.size(), 48u);
   for (const Compared& one : all) {
@@ -66,11 +68,17 @@ TEST(ErrorEstimate, IsWithinAFactorOfTwoForMostScenes) {
     std::printf("%-16s %-6s measured %.3f estimated %.3f factor %.2f by %s\n", one.name.c_str(),
                 one.level, one.measured, estimated, factor,
                 wlkApproximationName(one.estimate.dominant));
+    if (one.measured < NOISE) {
+      EXPECT_LE(estimated, 2 * NOISE) << one.name;
+      continue;
+    }
+    ++rows;
     EXPECT_GE(factor, 1 / WORST) << one.name;
     EXPECT_LE(factor, WORST) << one.name;
     within += factor >= 1 / USUAL && factor <= USUAL ? 1 : 0;
   }
-  EXPECT_GE(4 * within, 3 * all.size());
+  EXPECT_GE(rows, 40u);
+  EXPECT_GE(4 * within, 3 * rows);
 }
 
 // Thickness of slabs and size of texels alone, where they are seen at all.

@@ -145,7 +145,9 @@ std::vector<Method> levelMethods() {
 std::vector<Method> methodsFor(const Case& one, bool hasVolumes, bool quick) {
   std::vector<Method> methods = levelMethods();
   for (const Variation& variation : VARIATIONS) {
-    if (hasVolumes && wanted(variation.run, quick, one.curves)) {
+    // Of a sky alone only the orders of scattering make a difference.
+    const bool tells = hasVolumes || variation.name == std::string_view("single");
+    if (tells && wanted(variation.run, quick, one.curves)) {
       methods.push_back(vary(variation));
     }
   }

@@ -14,8 +14,8 @@ namespace {
 // less than 1 %.
 constexpr double MIN_ROUND_ms = 30.0;
 constexpr size_t MAX_REPEATS = 64;
-// Cheap scenes get more rounds, up to MORE_ROUNDS times as many. Ratios of two runs still differ by
-// up to 20 % of wall time and 5 % of CPU time: a process lays out its memory anew.
+// Cheap scenes get more rounds, up to MORE_ROUNDS times as many. Ratios of two runs still differ,
+// see docs/accuracy-and-performance.md.
 constexpr double MIN_STUDY_ms = 4000.0;
 constexpr size_t MORE_ROUNDS = 7;
 // A frame longer than this needs no second warm-up: what is made once is a small part of it.
@@ -100,17 +100,19 @@ double medianOf(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-std::vector<Timing> interleave(const std::vector<RenderFrame>& frames, size_t anchor,
-                               size_t warmUps, size_t rounds) {
-  std::vector<size_t> repeats(frames.size(), 1);
+std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor, size_t warmUps,
+                               size_t rounds) {
+  std::vector<size_t> repeats(methods.size(), 1);
   double round_ms = 0;
-  for (size_t i = 0; i < frames.size(); ++i) {
+  for (size_t i = 0; i < methods.size(); ++i) {
     double shortest = std::numeric_limits<double>::infinity();
-    double spent = 0.0;
-    for (size_t k = 0; k < warmUps && (k == 0 || spent < LONG_WARM_UP_ms); ++k) {
-      const double wall = timeFrames(frames[i], 1).wall;
-      shortest = std::min(shortest, wall);
-      spent += wall;
+    for (const RenderFrame& frame : methods[i]) {
+      double spent = 0.0;
+      for (size_t k = 0; k < warmUps && (k == 0 || spent < LONG_WARM_UP_ms); ++k) {
+        const double wall = timeFrames(frame, 1).wall;
+        shortest = std::min(shortest, wall);
+        spent += wall;
+      }
     }
     const double wanted = std::ceil(MIN_ROUND_ms / std::max(shortest, 1e-3));
     repeats[i] = std::clamp<size_t>(static_cast<size_t>(wanted), 1, MAX_REPEATS);
@@ -118,11 +120,12 @@ std::vector<Timing> interleave(const std::vector<RenderFrame>& frames, size_t an
   }
   const auto fill = static_cast<size_t>(MIN_STUDY_ms / round_ms);
   rounds = std::clamp(fill, rounds, MORE_ROUNDS * rounds);
-  std::vector<std::vector<Sample>> samples(frames.size());
+  std::vector<std::vector<Sample>> samples(methods.size());
   for (size_t round = 0; round < rounds; ++round) {
-    for (size_t k = 0; k < frames.size(); ++k) {
-      const size_t i = (k + round) % frames.size();
-      samples[i].push_back(timeFrames(frames[i], repeats[i]));
+    for (size_t k = 0; k < methods.size(); ++k) {
+      const size_t i = (k + round) % methods.size();
+      const Copies& copies = methods[i];
+      samples[i].push_back(timeFrames(copies[round % copies.size()], repeats[i]));
     }
   }
   std::vector<Timing> timings;

@@ -27,11 +27,15 @@ struct Timing {
 /// Renders one frame and returns its GPU time in ms.
 using RenderFrame = std::function<double()>;
 
-/// Calls every frame `warmUps` times, then once per round, in an order that turns by one place each
-/// round; a frame too short to time alone is repeated and its mean taken, and cheap sets of frames
-/// get more rounds.
-std::vector<Timing> interleave(const std::vector<RenderFrame>& frames, size_t anchor,
-                               size_t warmUps, size_t rounds);
+/// One method: copies of its frame whose memory lies elsewhere, which alone may change a time by a
+/// tenth. Rounds take them in turn.
+using Copies = std::vector<RenderFrame>;
+
+/// Calls every copy `warmUps` times, then every method once per round, in an order that turns by
+/// one place each round; a frame too short to time alone is repeated and its mean taken, and cheap
+/// sets of methods get more rounds.
+std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor, size_t warmUps,
+                               size_t rounds);
 
 double medianOf(std::vector<double> values);
 

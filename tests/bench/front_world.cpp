@@ -57,7 +57,7 @@ FrameCounts World::counts(WlkView view) const {
   for (const WlkPassStats& pass : passes) {
     counts.invocations += pass.invocations;
     counts.gpuTime_ns += pass.gpuTime_ns;
-    if (pass.pass != WLK_PASS_COMPOSITE) {
+    if (pass.pass == WLK_PASS_LIGHT_SLICES || pass.pass == WLK_PASS_EYE_SLICES) {
       counts.volumeInvocations += pass.invocations;
     }
   }

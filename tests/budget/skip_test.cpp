@@ -19,6 +19,8 @@ SceneOptions small() {
 constexpr uint64_t COMPOSITE_ONLY = 1;
 constexpr uint64_t EYE_AND_COMPOSITE = 2;
 constexpr uint64_t ALL_OF_ONE_VOLUME = 3;
+// Air in the sun: light scattered more than once, whose table a new view needs.
+constexpr uint64_t SKY_TABLE = 1;
 
 class Skip : public ::testing::Test {
  protected:
@@ -91,7 +93,7 @@ TEST_F(Skip, AnEmptySceneOnTheEnginesImageRecordsNothingAtAll) {
   EXPECT_EQ(counts.view.barriers + counts.view.copies, 0u);
   EXPECT_EQ(counts.view.descriptorWrites, 0u);
   EXPECT_EQ(reasonOf(WLK_PASS_COMPOSITE), uint32_t{WLK_REASON_NOTHING_TO_DRAW});
-  EXPECT_EQ(scene.passes().size(), 1u);
+  EXPECT_EQ(scene.passes().size(), 2u);
   expectSameWithoutSkipping();
 }
 
@@ -108,10 +110,34 @@ TEST_F(Skip, ACloudInTheSunNeedsEveryPass) {
   scene.setSun(30, 20);
   scene.addBall(0.01f);
   const FrameCounts counts = render();
-  EXPECT_EQ(counts.view.dispatches, ALL_OF_ONE_VOLUME);
+  EXPECT_EQ(counts.view.dispatches, SKY_TABLE + ALL_OF_ONE_VOLUME);
   expectReasons(WLK_REASON_NEEDED, WLK_REASON_NEEDED, WLK_REASON_NEEDED);
   EXPECT_GT(scene.read().mean(), 0.0);
   expectSameWithoutSkipping();
+}
+
+TEST_F(Skip, TheSkysTableIsMadeAnewOnlyWhereEyeLightOrAirHaveChanged) {
+  scene.setSky();
+  scene.setSun(30, 20);
+  EXPECT_EQ(render().view.dispatches, SKY_TABLE + COMPOSITE_ONLY);
+  EXPECT_EQ(reasonOf(WLK_PASS_SKY_TABLE), uint32_t{WLK_REASON_NEEDED});
+  scene.setCamera({0, 2, 0}, 120, -5);
+  EXPECT_EQ(render().view.dispatches, COMPOSITE_ONLY) << "the camera turned";
+  EXPECT_EQ(reasonOf(WLK_PASS_SKY_TABLE), uint32_t{WLK_REASON_UNCHANGED});
+  scene.setCamera({0, 2.01, 0}, 120, -5);
+  EXPECT_EQ(render().view.dispatches, SKY_TABLE + COMPOSITE_ONLY) << "the camera rose";
+  scene.setSun(30.01, 20);
+  EXPECT_EQ(render().view.dispatches, SKY_TABLE + COMPOSITE_ONLY) << "the sun rose";
+  auto sky = make<WlkSky>();
+  sky.scaleHeight = 7000;
+  ASSERT_EQ(wlkSetSky(scene.context, &sky), WLK_SUCCESS);
+  EXPECT_EQ(render().view.dispatches, SKY_TABLE + COMPOSITE_ONLY) << "the air changed";
+  EXPECT_EQ(render().view.dispatches, COMPOSITE_ONLY);
+  auto quality = make<WlkQuality>();
+  quality.scattering = WLK_SCATTERING_SINGLE;
+  ASSERT_EQ(wlkSetQuality(scene.context, scene.view, &quality), WLK_SUCCESS);
+  EXPECT_EQ(render().view.dispatches, COMPOSITE_ONLY) << "single scattering";
+  EXPECT_EQ(reasonOf(WLK_PASS_SKY_TABLE), uint32_t{WLK_REASON_NOTHING_TO_DRAW});
 }
 
 TEST_F(Skip, AVolumeOfZeroDensityIsNotMarched) {
@@ -119,7 +145,7 @@ TEST_F(Skip, AVolumeOfZeroDensityIsNotMarched) {
   scene.setSun(30, 20);
   const WlkVolume volume = scene.addBall(0.01f);
   scene.upload(volume, {8, 8, 8}, std::vector<float>(512, 0.0f));
-  EXPECT_EQ(render().view.dispatches, COMPOSITE_ONLY);
+  EXPECT_EQ(render().view.dispatches, SKY_TABLE + COMPOSITE_ONLY);
   expectReasons(WLK_REASON_ZERO_DENSITY, WLK_REASON_ZERO_DENSITY, WLK_REASON_NEEDED);
   expectSameWithoutSkipping();
 }
@@ -130,13 +156,13 @@ TEST_F(Skip, AVolumeThatWasNeverFilledOrDoesNotExtinguishIsNotMarched) {
   const WlkMedium medium = scene.addMedium();
   const auto box = boxTransform({-1000, 500, -6000}, {2000, 2000, 2000});
   const WlkVolume empty = scene.addVolume(medium, {4, 4, 4}, box, 0.01f);
-  EXPECT_EQ(render().view.dispatches, COMPOSITE_ONLY);
+  EXPECT_EQ(render().view.dispatches, SKY_TABLE + COMPOSITE_ONLY);
   expectReasons(WLK_REASON_ZERO_DENSITY, WLK_REASON_ZERO_DENSITY, WLK_REASON_NEEDED);
   expectSameWithoutSkipping();
   ASSERT_EQ(wlkDestroyVolume(scene.context, empty), WLK_SUCCESS);
   const WlkVolume clear = scene.addVolume(medium, {4, 4, 4}, box, 0.0f);
   scene.upload(clear, {4, 4, 4}, std::vector<float>(64, 1.0f));
-  EXPECT_EQ(render().view.dispatches, COMPOSITE_ONLY);
+  EXPECT_EQ(render().view.dispatches, SKY_TABLE + COMPOSITE_ONLY);
   expectReasons(WLK_REASON_ZERO_DENSITY, WLK_REASON_ZERO_DENSITY, WLK_REASON_NEEDED);
   expectSameWithoutSkipping();
 }
@@ -147,7 +173,7 @@ TEST_F(Skip, AVolumeOutsideTheViewIsNotMarched) {
   scene.addBall(0.01f);
   for (const double yaw_deg : {180.0, 90.0, -120.0}) {
     scene.setCamera({0, 2, 0}, yaw_deg, 12);
-    EXPECT_EQ(render().view.dispatches, COMPOSITE_ONLY) << yaw_deg;
+    EXPECT_EQ(render().view.dispatches, SKY_TABLE + COMPOSITE_ONLY) << yaw_deg;
     expectReasons(WLK_REASON_OUTSIDE_VIEW, WLK_REASON_OUTSIDE_VIEW, WLK_REASON_NEEDED);
     expectSameWithoutSkipping();
   }
@@ -160,8 +186,8 @@ TEST_F(Skip, AVolumeAtTheEdgeOfTheViewIsMarchedInItsRectangleOnly) {
   const uint64_t pixels = uint64_t{24} * 16;
   for (const double yaw_deg : {-48.0, 0.0, 41.0}) {
     scene.setCamera({0, 2, 0}, yaw_deg, 12);
-    EXPECT_EQ(render().view.dispatches, ALL_OF_ONE_VOLUME) << yaw_deg;
-    EXPECT_LT(scene.passes()[1].invocations, pixels) << yaw_deg;
+    EXPECT_EQ(render().view.dispatches, SKY_TABLE + ALL_OF_ONE_VOLUME) << yaw_deg;
+    EXPECT_LT(scene.passes()[2].invocations, pixels) << yaw_deg;
     expectSameWithoutSkipping();
   }
 }
@@ -237,7 +263,7 @@ TEST_F(Skip, AVolumeLayerThatIsOffIsNotMarchedEvenWithoutSkipping) {
   info.targetFormat = WLK_TARGET_RGBA32_FLOAT;
   info.layers = WLK_LAYER_ALL & ~uint32_t{WLK_LAYER_VOLUMES};
   ASSERT_EQ(wlkUpdateView(scene.context, scene.view, &info), WLK_SUCCESS);
-  EXPECT_EQ(render().view.dispatches, COMPOSITE_ONLY);
+  EXPECT_EQ(render().view.dispatches, SKY_TABLE + COMPOSITE_ONLY);
   expectReasons(WLK_REASON_LAYER_OFF, WLK_REASON_LAYER_OFF, WLK_REASON_NEEDED);
   expectSameWithoutSkipping();
   expectReasons(WLK_REASON_LAYER_OFF, WLK_REASON_LAYER_OFF, WLK_REASON_NEEDED);
@@ -246,10 +272,10 @@ TEST_F(Skip, AVolumeLayerThatIsOffIsNotMarchedEvenWithoutSkipping) {
 TEST_F(Skip, FogOfZeroExtinctionIsNoFogAndNeedsNoOtherPrepare) {
   scene.setSky();
   scene.setSun(30, 20);
-  EXPECT_EQ(render().view.dispatches, COMPOSITE_ONLY);
+  EXPECT_EQ(render().view.dispatches, SKY_TABLE + COMPOSITE_ONLY);
   const Image clear = scene.read();
   scene.setFog(0.0f, 100.0f);
-  EXPECT_EQ(render().view.dispatches, COMPOSITE_ONLY);
+  EXPECT_EQ(render().view.dispatches, SKY_TABLE + COMPOSITE_ONLY);
   EXPECT_TRUE(scene.read() == clear);
   expectSameWithoutSkipping();
 }
@@ -261,12 +287,12 @@ TEST_F(Skip, OfTwoVolumesOnlyTheOneInViewIsMarched) {
   const WlkVolume back = scene.addBall(0.01f);
   const auto behind = boxTransform({-1000, 500, 4000}, {2000, 2000, 2000});
   ASSERT_EQ(wlkSetVolumeTransform(scene.context, back, behind.data()), WLK_SUCCESS);
-  EXPECT_EQ(render().view.dispatches, ALL_OF_ONE_VOLUME);
+  EXPECT_EQ(render().view.dispatches, SKY_TABLE + ALL_OF_ONE_VOLUME);
   for (const WlkPassStats& pass : scene.passes()) {
     const uint32_t expected =
         pass.volume.id == back.id ? uint32_t{WLK_REASON_OUTSIDE_VIEW} : uint32_t{WLK_REASON_NEEDED};
     EXPECT_EQ(pass.reason, expected) << pass.name;
-    EXPECT_TRUE(pass.pass == WLK_PASS_COMPOSITE
+    EXPECT_TRUE(pass.pass == WLK_PASS_COMPOSITE || pass.pass == WLK_PASS_SKY_TABLE
                     ? pass.volume.id == 0
                     : pass.volume.id == back.id || pass.volume.id == front.id);
   }

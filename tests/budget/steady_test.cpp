@@ -55,6 +55,32 @@ TEST(SteadyFrame, MakesNothingWhileCameraSunAndVolumesMove) {
   EXPECT_TRUE(scene.device().messages().empty()) << scene.device().messages().front();
 }
 
+TEST(SteadyFrame, AnAirThatChangesIsSolvedAFewRowsAtATime) {
+  CountingAllocator memory;
+  EngineScene scene(small(memory));
+  scene.setSky();
+  scene.setSun(20, 10);
+  scene.setCamera({0, 2, 0}, 0, 12);
+  ASSERT_EQ(wlkPrepare(scene.context), WLK_SUCCESS);
+  scene.renderFrame();
+  const Image before = scene.read();
+  auto sky = make<WlkSky>();
+  sky.scaleHeight = 6000;
+  ASSERT_EQ(wlkSetSky(scene.context, &sky), WLK_SUCCESS);
+  constexpr int FRAMES = 24;  // of 8 rows: 32 altitudes for each of 6 orders
+  int frames = 1;
+  while (scene.renderFrame().update.copies == 0 && frames < 4 * FRAMES) {
+    ++frames;
+  }
+  EXPECT_GE(frames, FRAMES / 2);
+  EXPECT_LE(frames, 2 * FRAMES);
+  const Image after = scene.read();
+  EXPECT_FALSE(after == before);
+  ASSERT_EQ(wlkPrepare(scene.context), WLK_SUCCESS);
+  EXPECT_EQ(scene.renderFrame().update.copies, 0u) << "nothing is left to solve";
+  EXPECT_TRUE(scene.read() == after);
+}
+
 TEST(SteadyFrame, MakesNothingWhileThingsComeAndGo) {
   CountingAllocator memory;
   EngineScene scene(small(memory));

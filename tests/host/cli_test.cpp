@@ -277,12 +277,13 @@ TEST(WelkinProgram, QueriesTheSky) {
                                  "x,y,z,elevation_deg,azimuth_deg,length\n"
                                  "0,10,0,90,0,inf\n0,10,0,0,90,1000\n"));
   static_cast<void>(folder.write("v.csv", "0,10,0,0,2,0,inf\n0,10,0,3,0,0,1000\n"));
-  ASSERT_EQ(welkin(folder, "sky --in a.csv --out a.out.csv --set lights.0.elevation_deg=40").code,
-            0);
-  ASSERT_EQ(welkin(folder, "sky --in v.csv --out v.out.csv --set lights.0.elevation_deg=40").code,
-            0);
+  const std::string sun = " --set lights.0.elevation_deg=40 ";
+  ASSERT_EQ(welkin(folder, "sky --in a.csv --out a.out.csv --max-order 1" + sun).code, 0);
+  ASSERT_EQ(welkin(folder, "sky --in v.csv --out v.out.csv --max-order 1" + sun).code, 0);
+  ASSERT_EQ(welkin(folder, "sky --in v.csv --out all.csv --orders" + sun).code, 0);
   const host::CsvTable angles = host::readCsv(folder.file("a.out.csv"), {});
   const host::CsvTable vectors = host::readCsv(folder.file("v.out.csv"), {});
+  const host::CsvTable all = host::readCsv(folder.file("all.csv"), {});
   for (size_t row = 0; row < 2; ++row) {
     for (const char* column : {"radiance_r", "radiance_b", "transmittance_g"}) {
       const double a = angles.at(row, angles.find(column));
@@ -291,7 +292,14 @@ TEST(WelkinProgram, QueriesTheSky) {
       // The same ray but for the rounding of sine and cosine, 1e-16 of a steep but smooth model.
       EXPECT_NEAR(vectors.at(row, vectors.find(column)), a, 1e4 * 0x1p-52 * a);
     }
+    for (const char* channel : {"_r", "_g", "_b"}) {
+      const double first = all.at(row, all.find(std::string("first") + channel));
+      const int radiance = all.find(std::string("radiance") + channel);
+      EXPECT_EQ(first, vectors.at(row, vectors.find(std::string("radiance") + channel)));
+      EXPECT_GT(all.at(row, radiance), 1.02 * first);
+    }
   }
+  expectBadInput(folder, "sky --in v.csv --out x.csv --max-order 2", "--max-order");
 }
 
 }  // namespace

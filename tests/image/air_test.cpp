@@ -75,6 +75,7 @@ class AirReference {
     auto batch = welkin::make<WlkRayBatch>();
     batch.count = 1;
     batch.rays = &ray;
+    batch.maxOrder = 1;
     Point there{};
     for (size_t k = 0; k < 3; ++k) {
       ray.origin[k] = camera_.position[k];

@@ -214,6 +214,19 @@ TEST(Handles, NullContextsAreRefusedByEveryFunction) {
     double coefficients[WLK_AMBIENT_VALUES];
     return wlkEvalAmbient(c, position, coefficients);
   });
+  all.push_back([](WlkContext c, uint64_t) {
+    const double position[3] = {0, 0, 0};
+    double transmittance[3];
+    return wlkEvalTransmittance(c, position, position, transmittance);
+  });
+  all.push_back([](WlkContext c, uint64_t) {
+    const double vector[3] = {0, 1, 0};
+    return wlkEvalIrradiance(c, vector, vector, nullptr, nullptr);
+  });
+  all.push_back([](WlkContext c, uint64_t) {
+    const auto query = make<WlkSkyMapQuery>();
+    return wlkEvalSkyMap(c, &query, nullptr);
+  });
   for (size_t i = 0; i < all.size(); ++i) {
     EXPECT_FAILS(all[i](nullptr, 1), WLK_ERROR_INVALID_HANDLE, "context") << i;
   }

@@ -154,15 +154,22 @@ TEST(StructHeader, OfUploadsAndQueriesIsChecked) {
     return wlkUploadVolume(c, victim.volume, p);
   };
   const auto evalSky = [&](const WlkRayBatch* p) { return wlkEvalSky(c, p, nullptr, nullptr); };
+  std::vector<float> map(3 * 4 * 4);
+  auto mapQuery = make<WlkSkyMapQuery>();
+  mapQuery.size = 4;
+  mapQuery.maxOrder = 1;
+  const auto evalMap = [&](const WlkSkyMapQuery* p) { return wlkEvalSkyMap(c, p, map.data()); };
   const auto evalPhase = [&](const WlkPhaseQuery* p) { return wlkEvalPhase(c, p, nullptr); };
   auto phaseQuery = make<WlkPhaseQuery>();
   phaseQuery.medium = victim.medium;
   abuseHeader<WlkVolumeUpload>(upload, uploadVolume);
   abuseHeader<WlkRayBatch>(make<WlkRayBatch>(), evalSky);
+  abuseHeader<WlkSkyMapQuery>(mapQuery, evalMap);
   abuseHeader<WlkPhaseQuery>(phaseQuery, evalPhase);
   victim.expectUnchanged();
   expectLongerAccepted<WlkVolumeUpload>(upload, uploadVolume);
   expectLongerAccepted<WlkRayBatch>(make<WlkRayBatch>(), evalSky);
+  expectLongerAccepted<WlkSkyMapQuery>(mapQuery, evalMap);
   expectLongerAccepted<WlkPhaseQuery>(phaseQuery, evalPhase);
   victim.scene.upload(victim.volume, {4, 4, 4}, std::vector<float>(64, 0.5f));
   victim.expectUnchanged();
@@ -228,7 +235,7 @@ TEST(StructHeader, InitStructWritesDefaultsWithinTheSizeItIsGiven) {
   std::array<unsigned char, 512> bytes{};
   EXPECT_FAILS(wlkInitStruct(WLK_STRUCT_SKY, sizeof(WlkSky), nullptr), WLK_ERROR_INVALID_ARGUMENT,
                "structure");
-  for (const uint32_t unknown : {0u, 5u, 52u, 1004u, 0xffffffffu}) {
+  for (const uint32_t unknown : {0u, 5u, 53u, 1004u, 0xffffffffu}) {
     EXPECT_FAILS(wlkInitStruct(unknown, 64, bytes.data()), WLK_ERROR_UNKNOWN_STRUCT, "sType");
   }
   EXPECT_FAILS(wlkInitStruct(WLK_STRUCT_SKY, sizeof(WlkSky) - 1, bytes.data()),

@@ -10,7 +10,11 @@
 #include <limits>
 #include <random>
 
+#include "model/air_input.hpp"
+#include "model/evaluate.hpp"
 #include "reference/monte_carlo.hpp"
+#include "tables/sky_field_solver.hpp"
+#include "tables/sky_light.hpp"
 
 namespace {
 
@@ -18,6 +22,8 @@ namespace ref = welkin::reference;
 using welkin::SkyColor;
 using welkin::SkyField;
 using welkin::SkyFieldInput;
+using welkin::SkyFieldSolver;
+using welkin::SkyFieldSteps;
 using welkin::solveSkyField;
 
 constexpr double PI = 3.14159265358979323846;
@@ -68,6 +74,15 @@ ref::Scene sceneOf(const SkyFieldInput& input, const Haze& haze) {
   }
   scene.lights.resize(1);
   return scene;
+}
+
+SkyFieldSteps coarseSteps() {
+  SkyFieldSteps steps;
+  steps.zenithNodes = 3;
+  steps.azimuths = 4;
+  steps.steps = 8;
+  steps.maxOrders = 6;
+  return steps;
 }
 
 struct Errors {
@@ -170,11 +185,6 @@ TEST(SkyField, IsFiniteAndNeverNegative) {
   const auto between = [&](double low, double high) {
     return low * std::pow(high / low, unit(generator));
   };
-  welkin::SkyFieldSteps coarse;
-  coarse.zenithNodes = 3;
-  coarse.azimuths = 4;
-  coarse.steps = 8;
-  coarse.maxOrders = 6;
   for (int i = 0; i < 12; ++i) {
     SkyFieldInput input =
         inputOf({between(1e-7, 10), between(1, 1e4), 2 * unit(generator) - 1}, unit(generator));
@@ -184,7 +194,7 @@ TEST(SkyField, IsFiniteAndNeverNegative) {
     for (double& one : input.air.airScattering) {
       one = between(1e-8, 1e-2);
     }
-    const SkyField field = solveSkyField(input, coarse);
+    const SkyField field = solveSkyField(input, coarseSteps());
     for (int k = 0; k < 40; ++k) {
       const double view = 2 * unit(generator) - 1;
       const double sun = 2 * unit(generator) - 1;
@@ -194,6 +204,134 @@ TEST(SkyField, IsFiniteAndNeverNegative) {
           k % 2 == 0 ? INF : between(1e-3, 1e7), {0.1, 0.1, 0.1});
       for (const double one : result) {
         EXPECT_TRUE(std::isfinite(one) && one >= 0 && one < 1) << i << ' ' << k << ' ' << one;
+      }
+    }
+  }
+}
+
+TEST(SkyFieldSolver, GivesTheSameFieldInPortionsOfAnySize) {
+  const SkyFieldInput input = inputOf(EARTH, 0.2);
+  const SkyField whole = solveSkyField(input, coarseSteps());
+  const size_t rows = SkyField::ALTITUDES * static_cast<size_t>(whole.orders());
+  for (const size_t portion : {size_t{1}, size_t{7}, rows}) {
+    SkyFieldSolver solver(input, coarseSteps());
+    EXPECT_FALSE(solver.advance(0));
+    size_t calls = 1;
+    while (!solver.advance(portion)) {
+      EXPECT_FALSE(solver.done());
+      EXPECT_EQ(solver.rows(), portion * calls);
+      ++calls;
+    }
+    EXPECT_EQ(calls, (rows + portion - 1) / portion);
+    EXPECT_TRUE(solver.input() == input);
+    const SkyField field = solver.take();
+    EXPECT_EQ(field.orders(), whole.orders());
+    EXPECT_EQ(field.moments(), whole.moments());
+    EXPECT_EQ(field.irradiance(), whole.irradiance());
+  }
+  RecordProperty("rows", static_cast<int>(rows));
+}
+
+TEST(SkyFieldSolver, DoesNothingMoreWhenDone) {
+  const SkyFieldInput input = inputOf(CLEAR, 0.2);
+  const SkyField whole = solveSkyField(input, coarseSteps());
+  SkyFieldSolver solver(input, coarseSteps());
+  EXPECT_TRUE(solver.advance(SkyField::ALTITUDES * 64));
+  const size_t rows = solver.rows();
+  EXPECT_EQ(rows, SkyField::ALTITUDES * static_cast<size_t>(whole.orders()));
+  EXPECT_TRUE(solver.advance(SkyField::ALTITUDES));
+  EXPECT_EQ(solver.rows(), rows);
+  EXPECT_EQ(solver.take().moments(), whole.moments());
+}
+
+// What the solver does for all suns at once is what rays that are looked at do one by one. Float
+// keeps the share of a node to 24 2^-24, and these moments change by up to 10 times their mean.
+TEST(SkyFan, ScattersLikeSingleRays) {
+  const welkin::AirInput air = inputOf(EARTH, 0.2).air;
+  const welkin::FogTerms terms =
+      welkin::fogTerms({SkyColor{0.7, 0.7, 0.7}, SkyColor{0.5, 0.5, 0.5}});
+  std::mt19937_64 generator(5);
+  std::uniform_real_distribution<float> unit(0, 1);
+  std::vector<float> moments(SkyField::ALTITUDES * SkyField::SUNS * welkin::VALUES);
+  for (float& one : moments) {
+    one = unit(generator);
+  }
+  const double altitude = 3000;
+  const auto radius = static_cast<float>(air.planetRadius + altitude);
+  for (const float viewMu : {-0.9F, -0.02F, 0.1F, 0.8F}) {
+    const welkin::SkyRay ray =
+        welkin::planRay(air, welkin::SkyAxes(air), altitude, static_cast<double>(viewMu), INF, 20);
+    const float azimuth = unit(generator) * static_cast<float>(PI);
+    for (const welkin::SkyStep& step : ray.steps) {
+      welkin::Suns sunMu;
+      welkin::SkyFan airFan{};
+      for (size_t s = 0; s < SkyField::SUNS; ++s) {
+        sunMu[s] = static_cast<float>(welkin::SkyAxes::sunAt(static_cast<double>(s) / 47));
+        airFan.viewSun[s] = viewMu * sunMu[s] + std::cos(azimuth) * std::sqrt(1 - viewMu * viewMu) *
+                                                    std::sqrt(1 - sunMu[s] * sunMu[s]);
+      }
+      welkin::SkyFan fogFan = airFan;
+      const float* low = moments.data() + step.high.index * SkyField::SUNS * welkin::VALUES;
+      const float y = welkin::placeAt({radius, viewMu, 0, 0}, step).view.y;
+      const float flat = std::sqrt((1 - y) * (1 + y));
+      const welkin::SkyPlaces places = welkin::placesOf(
+          welkin::sunsAt(step, radius, sunMu, airFan.viewSun), airFan.viewSun, y, flat);
+      welkin::SkySource source;
+      welkin::airSource(low, step, y, flat, source);
+      welkin::addAir(source, places, airFan);
+      welkin::fogSource(low, step, terms, y, flat, source);
+      welkin::addFog(source, places, fogFan);
+      for (size_t s = 0; s < SkyField::SUNS; ++s) {
+        const welkin::SkyPlace place =
+            welkin::placeAt({radius, viewMu, sunMu[s], airFan.viewSun[s]}, step);
+        welkin::SunRow row;
+        welkin::blendAltitudes(moments, step.high, 0, row.size(), row.data());
+        const welkin::SkyLight g =
+            welkin::gatherMoments(row.data(), place.view, welkin::sunNode(place.sunMu));
+        for (size_t c = 0; c < 3; ++c) {
+          const float inAir = step.air[c] * welkin::RAYLEIGH * (g.mean[c] + g.square[c]);
+          const float inFog = step.fog[c] * welkin::ISOTROPIC *
+                              std::max(g.mean[c] + terms.first[c] * g.along[c] +
+                                           terms.second[c] * (3 * g.square[c] - g.mean[c]),
+                                       0.0F);
+          const float tolerance = 10 * 24 * 6e-8F * g.mean[c];
+          EXPECT_NEAR(airFan.radiance[s][c], inAir, step.air[c] * welkin::RAYLEIGH * tolerance);
+          EXPECT_NEAR(fogFan.radiance[s][c], inFog, step.fog[c] * welkin::ISOTROPIC * tolerance);
+        }
+      }
+    }
+  }
+}
+
+// Float of the result, of the visible part and of the exponent.
+TEST(LightAtAltitude, IsTheModelsTransmittanceTimesVisibility) {
+  for (const Haze& haze : {CLEAR, EARTH, THICK_FOG}) {
+    const welkin::AirInput input = inputOf(haze, 0).air;
+    const welkin::model::f64::Air air = welkin::airFrom(input);
+    for (const double altitude : {0.0, 3.0, 500.0, 2e4, 8e4}) {
+      for (const double angularRadius : {0.0, 0.00466, 0.3, 1.0}) {
+        const welkin::LightAtAltitude light(air, altitude, angularRadius);
+        for (int i = 0; i < 40; ++i) {
+          welkin::Suns mu;
+          for (size_t s = 0; s < SkyField::SUNS; ++s) {
+            // Half of them near the horizon.
+            const double q = static_cast<double>(40 * s + static_cast<size_t>(i)) / 1919 * 2 - 1;
+            mu[s] = static_cast<float>(i % 2 == 0 ? q : 0.2 * q * q * q - 0.01);
+          }
+          const auto result = light.at(mu);
+          for (size_t s = 0; s < SkyField::SUNS; ++s) {
+            double depth[3];
+            double visible = 0;
+            welkin::evalLightDepth(input, altitude, static_cast<double>(mu[s]), angularRadius,
+                                   depth, &visible);
+            for (size_t c = 0; c < 3; ++c) {
+              const double expected = visible * std::exp(-depth[c]);
+              EXPECT_NEAR(static_cast<double>(result[s][c]), expected,
+                          1.2e-7 * (3 + depth[c]) * expected + 1e-37)
+                  << altitude << ' ' << angularRadius << ' ' << mu[s];
+            }
+          }
+        }
       }
     }
   }

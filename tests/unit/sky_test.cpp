@@ -11,9 +11,7 @@
 #include <random>
 #include <string>
 
-#include "model/model.hpp"
-#include "reference/planet.hpp"
-#include "support/tolerance.hpp"
+#include "unit/sky_model.hpp"
 
 namespace {
 
@@ -29,51 +27,6 @@ constexpr double PI = 3.14159265358979323846;
 constexpr double DEGREE = PI / 180.0;
 constexpr double SUN_RADIUS = 0.00465;  // rad
 constexpr double FOG_PHASE = 0.3;       // 1/sr; the value only weights the species
-
-template <typename A, typename V, typename T>
-A airOf(const ref::Planet& planet) {
-  A air;
-  air.planetRadius = static_cast<T>(planet.radius);
-  air.airScattering =
-      V(static_cast<T>(planet.airScattering[0]), static_cast<T>(planet.airScattering[1]),
-        static_cast<T>(planet.airScattering[2]));
-  air.airScaleHeight = static_cast<T>(planet.airScaleHeight);
-  air.fogExtinction = static_cast<T>(planet.fogExtinction);
-  air.fogBaseAltitude = static_cast<T>(planet.fogBaseAltitude);
-  air.fogScaleHeight = static_cast<T>(planet.fogScaleHeight);
-  air.fogAlbedo = V(static_cast<T>(planet.fogAlbedo[0]), static_cast<T>(planet.fogAlbedo[1]),
-                    static_cast<T>(planet.fogAlbedo[2]));
-  return air;
-}
-
-f64::Air air64(const ref::Planet& planet) {
-  return airOf<f64::Air, f64::vec3, double>(planet);
-}
-f32::Air air32(const ref::Planet& planet) {
-  return airOf<f32::Air, f32::vec3, float>(planet);
-}
-
-f64::AirRay ray64(const ref::PlanetRay& ray) {
-  f64::AirRay r;
-  r.altitude = ray.altitude;
-  r.viewMu = ray.viewMu;
-  r.sunMu = ray.lightMu;
-  r.viewSun = ray.viewLight;
-  return r;
-}
-
-f32::AirRay ray32(const ref::PlanetRay& ray) {
-  f32::AirRay r;
-  r.altitude = static_cast<float>(ray.altitude);
-  r.viewMu = static_cast<float>(ray.viewMu);
-  r.sunMu = static_cast<float>(ray.lightMu);
-  r.viewSun = static_cast<float>(ray.viewLight);
-  return r;
-}
-
-double airPhase(const ref::PlanetRay& ray) {
-  return 3.0 / (16.0 * PI) * (1.0 + ray.viewLight * ray.viewLight);
-}
 
 // A ray and a planet.
 struct Case {
@@ -157,12 +110,7 @@ double radianceError(const Case& c) {
       ref::inscatter(c.planet, c.ray, airPhase(c.ray), fog, SUN_RADIUS, TRUTH);
   const f64::AirResult result = f64::airAlongRay(air64(c.planet), ray64(c.ray), c.ray.length,
                                                  airPhase(c.ray), fog, SUN_RADIUS);
-  double error = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    const double t = truth[static_cast<std::size_t>(i)];
-    error = t > DARK ? std::fmax(error, relativeError(result.radiance[i], t)) : error;
-  }
-  return error;
+  return radianceError(result.radiance, truth, DARK);
 }
 
 void report(const std::string& name, ErrorSample& sample) {
@@ -171,7 +119,7 @@ void report(const std::string& name, ErrorSample& sample) {
   testing::Test::RecordProperty(name + "_p95", std::to_string(sample.p95()));
 }
 
-constexpr int RAYS = 200;
+constexpr int RAYS = 120;
 
 TEST(LightDepth, MatchesTheSphereFromGroundToSpaceDownToTheHorizon) {
   Cases cases;
@@ -193,7 +141,7 @@ TEST(LightDepth, MatchesTheSphereFromGroundToSpaceDownToTheHorizon) {
   }
   report("light above", above);
   report("light below", below);
-  constexpr double CHAPMAN = 2e-3;  // of the erfcx form for r / H > 700
+  constexpr double CHAPMAN = 3e-5;  // second order of the erfcx form for r / H > 700
   EXPECT_LE(above.max(), CHAPMAN);
   EXPECT_LE(below.max(), CHAPMAN);
 }
@@ -243,8 +191,7 @@ TEST(LightVisibility, IsTheFractionOfTheDiskAboveTheHorizon) {
   EXPECT_EQ(f64::lightVisibility(air, 0.0, 1e-3, 0.0), 1.0);
 }
 
-// The bounds of the next three tests are the product's promise (docs); the measured values that
-// they leave room for stand in riley2004.glsl and are printed.
+// Twice to four times what was measured, which is printed; sky_heights_test.cpp has the promise.
 TEST(AirAlongRay, AirPerspectiveTo50kmMatchesQuadrature) {
   Cases cases;
   ErrorSample errors;
@@ -252,9 +199,9 @@ TEST(AirAlongRay, AirPerspectiveTo50kmMatchesQuadrature) {
     errors.add(radianceError(cases.aerialPerspective()));
   }
   report("aerial perspective", errors);
-  EXPECT_LE(errors.median(), 1e-3);
-  EXPECT_LE(errors.p95(), 2e-3);
-  EXPECT_LE(errors.max(), 1e-2);
+  EXPECT_LE(errors.median(), 1e-5);
+  EXPECT_LE(errors.p95(), 1e-4);
+  EXPECT_LE(errors.max(), 1e-3);
 }
 
 TEST(AirAlongRay, SkyMatchesQuadrature) {
@@ -273,14 +220,16 @@ TEST(AirAlongRay, SkyMatchesQuadrature) {
   report("sky, sun 80-88", low);
   report("from space", space);
   report("sky, sun 90-93", dusk);
-  EXPECT_LE(day.median(), 1e-3);
-  EXPECT_LE(day.p95(), 5e-3);
-  EXPECT_LE(day.max(), 2e-2);
-  EXPECT_LE(low.p95(), 3e-2);
-  EXPECT_LE(low.max(), 5e-2);
-  EXPECT_LE(space.p95(), 5e-3);
-  EXPECT_LE(space.max(), 2e-2);
-  EXPECT_LE(dusk.median(), 2e-2);
+  EXPECT_LE(day.median(), 5e-5);
+  EXPECT_LE(day.p95(), 1e-3);
+  EXPECT_LE(day.max(), 2e-3);
+  EXPECT_LE(low.p95(), 3e-3);
+  EXPECT_LE(low.max(), 1e-2);
+  EXPECT_LE(space.p95(), 5e-4);
+  EXPECT_LE(space.max(), 2e-3);
+  EXPECT_LE(dusk.median(), 3e-3);
+  // Some rays end in penumbra, which is taken at the middle of a segment.
+  EXPECT_LE(dusk.p95(), 5e-2);
 }
 
 TEST(AirAlongRay, FogAndAirMatchQuadrature) {
@@ -298,11 +247,10 @@ TEST(AirAlongRay, FogAndAirMatchQuadrature) {
   report("fog from above", above);
   EXPECT_LE(near.p95(), 3e-3);
   EXPECT_LE(near.max(), 1e-2);
-  EXPECT_LE(sky.p95(), 1e-2);
-  EXPECT_LE(sky.max(), 3e-2);
-  // The worst graze a thin layer near its lowest point.
-  EXPECT_LE(above.p95(), 2e-2);
-  EXPECT_LE(above.max(), 1.5e-1);
+  EXPECT_LE(sky.p95(), 7e-3);
+  EXPECT_LE(sky.max(), 1.5e-2);
+  EXPECT_LE(above.p95(), 1.2e-2);
+  EXPECT_LE(above.max(), 2.5e-2);
 }
 
 TEST(AirAlongRay, OpticalDepthMatchesQuadrature) {
@@ -322,9 +270,10 @@ TEST(AirAlongRay, OpticalDepthMatchesQuadrature) {
   }
   report("optical depth", whole);
   report("optical depth, segments", segments);
-  // Chapman's 2e-3 holds for whole columns; a difference of columns e apart counts it 1.6 times.
-  EXPECT_LE(whole.max(), 1.6 * 2e-3);
-  EXPECT_LE(segments.max(), 1.6 * 2e-3);
+  // The curvature's series is within 5e-4 where differences of columns take over (segment.glsl),
+  // and a difference of columns e apart counts their error 1.6 times.
+  EXPECT_LE(whole.max(), 5e-4 + 1.6 * 3e-5);
+  EXPECT_LE(segments.max(), 5e-4 + 1.6 * 3e-5);
 }
 
 TEST(AirAlongRay, FloatFollowsDouble) {
@@ -446,8 +395,8 @@ TEST(AirOpticalDepth, OfTwoHalvesAddsUpToTheWhole) {
                           f64::airOpticalDepth(air, second, c.ray.length - half);
     worst = std::fmax(worst, relativeError(sum.y, whole.y));
   }
-  // Either side is within 1.6 * 2e-3 of the truth.
-  EXPECT_LE(worst, 2 * 1.6 * 2e-3);
+  // Either side is within that of the truth.
+  EXPECT_LE(worst, 2 * (5e-4 + 1.6 * 3e-5));
   std::printf("  worst %.2e\n", worst);
 }
 

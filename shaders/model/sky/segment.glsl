@@ -76,15 +76,31 @@ real layerDensity(real exponent) {
   return exp(clamp(exponent, LAYER_VACUUM, LAYER_SOLID));
 }
 
-// Depth per unit extinction (m) from radius r towards a direction with cosine mu to the up: density
-// H sqrt(pi X/2) erfcx(sqrt(X/2) |mu|), X = r/H; for mu < 0 twice the lowest point's horizontal
-// value less the opposite direction. Within 0.2 % of the sphere's integral for X > 400.
+// e^(x^2) erfc(x) of a layer around a sphere: times sqrt(pi X/2) the column above a point in scale
+// heights, X = r/H, x = sqrt(X/2) |mu|. The next order in 1/X is c(x)/X, c from 3/8 (horizontal) to
+// 1 (vertical), here within 7e-3; the whole within 2e-5 for X > 700. 1/(X + 1) keeps it harmless
+// around a body no larger than its layer.
+const real HORIZONTAL_BEND = real(0.375);
+const real BEND_2 = real(-0.4);
+const real BEND_3 = real(2.7);
+const real BEND_4 = real(-1.3);
+real layerErfcx(real x, real radius, real scaleHeight) {
+  real t = real(1.0f) / (real(1.0f) + ERFCX_SCALE * x);
+  real near = t * t * (BEND_2 + t * (BEND_3 + t * BEND_4));
+  real bend = real(1.0f) - (real(1.0f) - HORIZONTAL_BEND) * near;
+  return erfcxPositive(x) * (real(1.0f) + bend * scaleHeight / (radius + scaleHeight));
+}
+
+// Depth per unit extinction (m) from radius r towards a direction with cosine mu to the up; for
+// mu < 0 twice the lowest point's horizontal value less the opposite direction, which is exact.
+// Within 2e-5 of the sphere's integral for X > 700.
 real layerColumn(real exponent, real density, real scaleHeight, real radius, real mu) {
   real width = sqrt(real(2.0f) * radius * scaleHeight);
-  real up = density * erfcxPositive(radius * abs(mu) / width);
+  real up = density * layerErfcx(radius * abs(mu) / width, radius, scaleHeight);
   real sinus = sqrt(max((real(1.0f) - mu) * (real(1.0f) + mu), real(0.0f)));
   real drop = radius * mu * mu / (scaleHeight * (real(1.0f) + sinus));
-  real down = real(2.0f) * sqrt(sinus) * layerDensity(exponent + drop) - up;
+  real bent = real(1.0f) + HORIZONTAL_BEND * scaleHeight / (radius * sinus + scaleHeight);
+  real down = real(2.0f) * sqrt(sinus) * layerDensity(exponent + drop) * bent - up;
   // At the nadir the chord is no exponential column; keep it monotone and never negative.
   return SQRT_PI_HALF * width * (mu < real(0.0f) ? max(down, up) : up);
 }
@@ -94,7 +110,8 @@ LayerPoint layerPoint(real altitude, real base, real scaleHeight, real radius, r
   point.exponent = min(layerExponent(altitude, base, scaleHeight), LAYER_SOLID);
   point.density = layerDensity(point.exponent);
   real width = sqrt(real(2.0f) * radius * scaleHeight);
-  point.column = SQRT_PI_HALF * width * point.density * erfcxPositive(abs(fromLowest) / width);
+  point.column = SQRT_PI_HALF * width * point.density *
+                 layerErfcx(abs(fromLowest) / width, radius, scaleHeight);
   return point;
 }
 
@@ -184,4 +201,76 @@ real displacement(LayerPoint a, LayerPoint b, real own, real otherLean) {
   real s = clamp(even ? bent : steep, real(0.0f), real(1.0f));
   real x = s + real(4.0f) * s * (real(1.0f) - s) * otherLean;
   return (x - y) / (x < y ? y : real(1.0f) - y);
+}
+
+// ---- What the two ends do not tell: how the depth bends between them.
+
+// Excess of the depth's slope over its mean at either end, times the span's column.
+struct Bend {
+  real near;
+  real far;
+};
+
+// Densities below this times the base's give no slope, and no slope is steeper than SLOPE_CAP.
+const real SLOPE_DENSITY = real(1e-12);
+const real SLOPE_CAP = real(1e4);
+real slopeOf(real rate, real density, real cap) {
+  return clamp(rate / max(density, SLOPE_DENSITY), -cap, cap);
+}
+
+// For a layer whose light and view columns together change by `change` over the span, at rates (per
+// metre) at its ends. Where the density changes much, the slope follows its logarithm: the thin end
+// then counts for nothing and the dense one three times (sech^2 of half the change of the exponent,
+// exact in both limits).
+Bend layerBend(LayerPoint a, LayerPoint b, real rateA, real rateB, real column, real change) {
+  bool grows = a.density < b.density;
+  real ratio = grows ? a.density / b.density : b.density / a.density;
+  real thin = real(4.0f) * ratio / ((real(1.0f) + ratio) * (real(1.0f) + ratio));
+  real dense = real(3.0f) - real(2.0f) * thin;
+  Bend bend;
+  bend.near = (grows ? thin : dense) * (column * slopeOf(rateA, a.density, SLOPE_CAP) - change);
+  bend.far = (grows ? dense : thin) * (column * slopeOf(rateB, b.density, SLOPE_CAP) - change);
+  return bend;
+}
+
+// Depth by which the mean transmittance of a span differs from meanTransmittance, with the depth as
+// a cubic of the span's column: mean of y (1 - y) (near (1 - y) - far y) weighted with e^(-rise y).
+// The two moments by rational fits, exact to first order at rise = 0 and within 10 % anywhere. Cuts
+// the median error of clear skies from 4e-4 to 1e-5 (sky_test.cpp).
+const real BEND_RISE = real(1e15);
+const real BEND_CAP = real(2.0f);
+real bentDepth(real near, real far, real rise) {
+  real x = min(abs(rise), BEND_RISE);
+  real lit = rise > real(0.0f) ? near : -far;
+  real hidden = rise > real(0.0f) ? -far : near;
+  real x12 = real(12.0f) + real(1.2) * x;
+  real a = x12 + real(0.2) * x * x;
+  real b = x12 + real(0.45) * x * x;
+  real depth = lit * ((real(1.0f) + real(0.2) * x) / a) + hidden / b;
+  return clamp(depth, -BEND_CAP, BEND_CAP);
+}
+
+vec3 bentDepth3(vec3 near, vec3 far, vec3 rise) {
+  return vec3(bentDepth(near.x, far.x, rise.x), bentDepth(near.y, far.y, rise.y),
+              bentDepth(near.z, far.z, rise.z));
+}
+
+// e^-depth to second order and positive.
+real bentTransmittance(real depth) {
+  real e = real(1.0f) + abs(depth) * (real(1.0f) + real(0.5f) * abs(depth));
+  return depth > real(0.0f) ? real(1.0f) / e : e;
+}
+
+vec3 bentTransmittance3(vec3 depth) {
+  return vec3(bentTransmittance(depth.x), bentTransmittance(depth.y), bentTransmittance(depth.z));
+}
+
+// Twice the column, in m, by which another layer is in the mean ahead of even along a span of the
+// first one: rateA and rateB are the other's change per metre of the first's column at the ends.
+// Where they grow e^G-fold this is G/6 of the change for small G, all of it for large.
+const real RATE_CAP = real(1e12);
+const real RATE_FLOOR = real(1e-18);
+real bulge(real rateA, real rateB, real column) {
+  real growth = log(max(abs(rateA), RATE_FLOOR) / max(abs(rateB), RATE_FLOOR));
+  return column * (rateA - rateB) / sqrt(real(36.0f) + growth * growth);
 }

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Reads the tables that sky_table.comp wrote: mean source, radiance / (1 - transmittance) per unit
+// irradiance of the light (1/sr), of light scattered at least twice. It varies slowly along a ray,
+// so the pixel's own exact opacity carries the detail.
+#include "../interface/sky_table.glsl"
+
+// Table coordinates of a ray's direction. They do not depend on how the camera is turned.
+vec2 skyTableDirection(AirRay ray) {
+  float horizon = frame.skyView.x;
+  bool below = ray.viewMu < horizon;
+  float range = below ? 1.0f + horizon : frame.skyView.y - horizon;
+  float rise = sqrt(clamp(abs(ray.viewMu - horizon) / max(range, 1.0e-12f), 0.0f, 1.0f));
+  float sines = sqrt(max((1.0f - ray.viewMu) * (1.0f + ray.viewMu), 0.0f)) *
+                sqrt(max((1.0f - ray.sunMu) * (1.0f + ray.sunMu), 0.0f));
+  float azimuth = clamp((ray.viewSun - ray.viewMu * ray.sunMu) / max(sines, 1.0e-6f), -1.0f, 1.0f);
+  vec2 node = vec2((0.5f - 0.5f * azimuth) * float(SKY_AZIMUTHS - 1),
+                   rise * float(SKY_ZENITHS / 2 - 1));
+  node.y += below ? float(SKY_ZENITHS / 2) : 0.0f;
+  return (node + 0.5f) / vec2(float(SKY_AZIMUTHS), float(SKY_ZENITHS));
+}
+
+vec3 skyTableUvw(vec2 direction, float share) {
+  return vec3(direction, (share * float(SKY_SHARES - 1) + 0.5f) / float(SKY_SHARES));
+}
+
+// With ALL_LIGHT the table holds all light of clear air, per unit of its phase function.
+vec3 skyTableSource(vec2 direction, float share, float viewSun) {
+  return rayleighPhase(1.0f - viewSun) *
+         textureLod(skyTable, skyTableUvw(direction, clamp(share, 0.0f, 1.0f)), 0.0f).xyz;
+}
+
+// What the table says of a whole ray; `total` its opacity in green.
+struct SkyTableRay {
+  vec2 direction;
+  vec3 source;
+  float total;
+};
+
+SkyTableRay skyTableRay(AirRay ray) {
+  SkyTableRay result;
+  result.direction = skyTableDirection(ray);
+  vec4 whole = textureLod(skyTable, skyTableUvw(result.direction, 1.0f), 0.0f);
+  result.source = whole.xyz;
+  result.total = whole.w;
+  return result;
+}
+
+// Mean source of the part of the ray with this opacity. droplets: the fog's phase function.
+vec3 skySourceAt(SkyTableRay ray, vec3 opacity, vec3 droplets) {
+  float share = clamp(opacity.y / max(ray.total, 1.0e-30f), 0.0f, 1.0f);
+  vec3 uvw = skyTableUvw(ray.direction, share);
+  vec3 source = textureLod(skyTable, uvw, 0.0f).xyz;
+  if (FOG_ENABLED) {
+    vec3 phase = min(droplets * frame.fogFirst.w, frame.fogBound.xyz);
+    source += phase * textureLod(skyPeak, uvw, 0.0f).xyz;
+  }
+  return source;
+}
+
+vec3 opacityOf(vec3 depth) {
+  return vec3(oneMinusExp(depth.x), oneMinusExp(depth.y), oneMinusExp(depth.z));
+}

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "api/sky_light.hpp"
+
+#include <cstring>
+
+#include "api/sky_query.hpp"
+#include "tables/sky_table.hpp"
+
+namespace welkin {
+namespace {
+
+bool shown(WlkContext_T& c) {
+  if (!c.air.sky && !c.fogActive()) {
+    return false;
+  }
+  for (uint32_t i = 0; i < c.views.slotCount(); ++i) {
+    const ViewState* view = c.views.at(i);
+    if (view != nullptr && resolveQuality(view->quality).multipleSky &&
+        (view->info.layers & (WLK_LAYER_SKY | WLK_LAYER_FOG)) != 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool same(const SkyLightSource& a, const SkyLightSource& b) {
+  return a.air == b.air && a.groundAlbedo == b.groundAlbedo && a.angularRadius == b.angularRadius &&
+         a.fogPhase == b.fogPhase;
+}
+
+// Rows of the image: a block of altitudes for each moment, then the light of the ground.
+constexpr uint32_t ROWS = SkyField::MOMENTS * SkyField::ALTITUDES + 1;
+constexpr size_t ROW_FLOATS = SkyField::SUNS * LANES;
+
+void fillRows(const SkyField& field, float* rows) {
+  for (size_t a = 0; a < SkyField::ALTITUDES; ++a) {
+    for (size_t s = 0; s < SkyField::SUNS; ++s) {
+      for (size_t m = 0; m < SkyField::MOMENTS; ++m) {
+        const float* from = field.moments().data() + (a * SkyField::SUNS + s) * VALUES + m * LANES;
+        float* to = rows + (m * SkyField::ALTITUDES + a) * ROW_FLOATS + s * LANES;
+        std::memcpy(to, from, LANES * sizeof *to);
+      }
+    }
+  }
+  std::memcpy(rows + (ROWS - 1) * ROW_FLOATS, field.irradiance().data(), ROW_FLOATS * sizeof *rows);
+}
+
+glm::vec4 colour(const SkyColor& c, double w) {
+  return glm::vec4(glm::dvec4(c[0], c[1], c[2], w));
+}
+
+void fillConstants(const SkyField& field, SkyLightState& light) {
+  light.top = field.top();
+  light.fogShare = field.air().fogExtinction > 0 ? SkyAxes::FOG_SHARE : 0;
+  const AirInput& eye = field.eyeAir();
+  SkyColor first{};
+  SkyColor second{};
+  for (size_t k = 0; k < 3; ++k) {
+    first[k] = 3 * field.eyeMoments()[0][k];
+    second[k] = 2.5 * field.eyeMoments()[1][k];
+  }
+  light.eyeFog = colour({eye.fogAlbedo[0], eye.fogAlbedo[1], eye.fogAlbedo[2]}, eye.fogExtinction);
+  light.fogFirst = colour(first, 1 / (1 - field.eyePeak()));
+  light.fogSecond = colour(second, 0);
+  light.fogBound = colour(field.fogBound(), 0);
+}
+
+// The present air; without a light as for the one that may be set later, probably as large as the
+// last one, or as the Sun.
+AirQuery presentAir(const WlkContext_T& c) {
+  AirQuery query = airQueryOf(c.air);
+  if (!query.light) {
+    constexpr double SUN_RADIUS = 0.00466;
+    const double last = c.skyLightSource.angularRadius;
+    query.angularRadius = last >= 0 ? last : SUN_RADIUS;
+  }
+  return query;
+}
+
+SkyLightSource sourceOf(const WlkContext_T& c, const AirQuery& query) {
+  SkyLightSource source;
+  source.air = query.air;
+  source.groundAlbedo = {c.air.planet.groundAlbedo[0], c.air.planet.groundAlbedo[1],
+                         c.air.planet.groundAlbedo[2]};
+  source.angularRadius = query.angularRadius;
+  source.fogPhase = c.fogActive() ? c.air.fogPhase : nullptr;
+  return source;
+}
+
+// Hands a field over to the next recordUpdate.
+void stage(WlkContext_T& c, const SkyField& field, const SkyLightSource& source) {
+  if (!c.skyLight.moments) {
+    vk::ImageInfo info;
+    info.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    info.extent = {SkyField::SUNS, ROWS, 1};
+    info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    c.skyLight.moments = vk::Image(*c.device, info);
+  }
+  vk::Buffer staging(*c.device, ROWS * ROW_FLOATS * sizeof(float), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                     true);
+  fillRows(field, static_cast<float*>(staging.data()));
+  c.skyLight.staging = std::move(staging);
+  fillConstants(field, c.skyLight);
+  c.skyLightSource = source;
+}
+
+}  // namespace
+
+void prepareSkyLight(WlkContext_T& c) {
+  if (!c.device || !shown(c)) {
+    return;
+  }
+  const AirQuery query = presentAir(c);
+  const SkyLightSource source = sourceOf(c, query);
+  if (same(source, c.skyLightSource)) {
+    return;
+  }
+  stage(c, skyFieldOf(c, query), source);
+  c.skyLightWork.reset();
+}
+
+void advanceSkyLight(WlkContext_T& c) {
+  constexpr size_t ROWS_PER_CALL = 8;
+  if (!shown(c)) {
+    return;
+  }
+  const AirQuery query = presentAir(c);
+  const SkyLightSource source = sourceOf(c, query);
+  if (c.skyLightSource.angularRadius < 0) {
+    prepareSkyLight(c);
+    return;
+  }
+  if (!c.skyLightWork) {
+    if (same(source, c.skyLightSource)) {
+      return;
+    }
+    c.skyLightWork = std::make_unique<SkyLightWork>(
+        SkyLightWork{source, SkyFieldSolver(skyFieldInputOf(c, query))});
+  }
+  if (!c.skyLightWork->solver.advance(ROWS_PER_CALL)) {
+    return;
+  }
+  const std::unique_ptr<SkyLightWork> work = std::move(c.skyLightWork);
+  SkyField field = work->solver.take();
+  if (work->source.fogPhase) {
+    finishSkyField(field, work->source.fogPhase->particle);
+  }
+  stage(c, field, work->source);
+}
+
+}  // namespace welkin

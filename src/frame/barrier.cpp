@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "frame/record.hpp"
+
+namespace welkin {
+
+void imageBarrier(const vk::Dispatch& vk, VkCommandBuffer commands, VkImage image,
+                  VkImageAspectFlags aspect, const WlkVulkanImageState& from,
+                  const WlkVulkanImageState& to) {
+  VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+  barrier.srcStageMask = from.stages;
+  barrier.srcAccessMask = from.access;
+  barrier.dstStageMask = to.stages;
+  barrier.dstAccessMask = to.access;
+  barrier.oldLayout = from.layout;
+  barrier.newLayout = to.layout;
+  barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.image = image;
+  barrier.subresourceRange = {aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+  VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+  info.imageMemoryBarrierCount = 1;
+  info.pImageMemoryBarriers = &barrier;
+  vk.CmdPipelineBarrier2(commands, &info);
+}
+
+}  // namespace welkin

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// A Vulkan device without validation, whose images and buffers live as long as it: the engine's
+// side of a benchmark in which the library and something else do the same on one device. Times in
+// ms.
+#pragma once
+
+#include <vulkan/vulkan.h>
+#include <welkin/welkin_vulkan.h>
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bench {
+
+// Throws std::runtime_error.
+void check(VkResult result, const char* call);
+
+struct GpuImage {
+  VkImage handle = VK_NULL_HANDLE;
+  VkImageView view = VK_NULL_HANDLE;
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  VkExtent3D extent{};
+};
+
+struct GpuBuffer {
+  VkBuffer handle = VK_NULL_HANDLE;
+  void* data = nullptr;  // mapped
+};
+
+// Images of one size that a frame is drawn with; depth is reversed and infinite.
+struct GpuTargets {
+  GpuImage depth;
+  GpuImage color;
+  GpuImage target;
+};
+
+// What a frame recorded.
+struct GpuCounts {
+  uint64_t dispatches = 0;
+  uint64_t invocations = 0;
+  uint64_t bytes = 0;  // of device memory
+  std::vector<std::pair<std::string, double>> passes_ms;
+};
+
+class Gpu {
+ public:
+  explicit Gpu(bool validation = false);
+  ~Gpu();
+  Gpu(const Gpu&) = delete;
+  Gpu& operator=(const Gpu&) = delete;
+
+  VkDevice handle() const { return device_; }
+  const VkPhysicalDeviceProperties& properties() const { return properties_; }
+  // Of the driver.
+  std::string driver() const;
+  WlkVulkanDeviceInfo info() const;
+
+  // In layout GENERAL, where it stays; texels of 4 or 16 bytes.
+  GpuImage makeImage(VkFormat format, VkExtent3D extent);
+  GpuBuffer makeBuffer(VkDeviceSize size, VkBufferUsageFlags usage);
+  void upload(const GpuImage& image, std::span<const float> texels);
+  std::vector<float> download(const GpuImage& image);
+
+  // Records, submits, waits; the time between the first and the last command.
+  double run(const std::function<void(VkCommandBuffer)>& record);
+
+  // Messages of the validation layer.
+  const std::vector<std::string>& messages() const { return messages_; }
+
+ private:
+  void makeInstance(bool validation);
+  void makeDevice();
+  GpuBuffer staging(VkDeviceSize size);
+  VkDeviceMemory allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags flags);
+  void destroy();
+
+  std::vector<std::string> messages_;
+  VkInstance instance_ = VK_NULL_HANDLE;
+  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+  VkPhysicalDeviceProperties properties_{};
+  uint32_t family_ = 0;
+  VkDevice device_ = VK_NULL_HANDLE;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  VkCommandPool pool_ = VK_NULL_HANDLE;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  VkFence fence_ = VK_NULL_HANDLE;
+  VkQueryPool queries_ = VK_NULL_HANDLE;
+  std::vector<GpuImage> images_;
+  std::vector<GpuBuffer> buffers_;
+  std::vector<VkDeviceMemory> memory_;
+  GpuBuffer staging_;
+  VkDeviceSize stagingSize_ = 0;
+};
+
+}  // namespace bench

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+// Parity: light of all orders in air and fog, as the passes draw it from the view's table (from
+// space: gathered by every pixel), against wlkEvalSky, which gathers along each ray in double.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "support/headless_scene.hpp"
+
+namespace welkin::test {
+namespace {
+
+struct Station {
+  double altitude;
+  double pitch_deg;
+};
+
+class SkyLightPicture : public ::testing::Test {
+ protected:
+  static SceneOptions options() {
+    SceneOptions result;
+    result.width = 40;
+    result.height = 30;
+    result.composite = WLK_COMPOSITE_SEPARATE;
+    result.layers = WLK_LAYER_SKY | WLK_LAYER_FOG;
+    return result;
+  }
+
+  void look(const Station& from, double yaw_deg) {
+    scene.setCamera({300, from.altitude, -200}, yaw_deg, from.pitch_deg);
+    position_ = {300, from.altitude, -200};
+    yaw_ = yaw_deg * std::numbers::pi / 180;
+    pitch_ = from.pitch_deg * std::numbers::pi / 180;
+  }
+
+  WlkRay rayOf(uint32_t x, uint32_t y) const {
+    const auto camera = make<WlkCamera>();
+    const SceneOptions& o = scene.options();
+    const double lens = -static_cast<double>(camera.clipFromView[5]);
+    const double right = (2 * (x + 0.5) / o.width - 1) / lens * o.width / o.height;
+    const double up = -(2 * (y + 0.5) / o.height - 1) / lens;
+    const double ahead = std::cos(pitch_) - up * std::sin(pitch_);
+    double d[3] = {std::cos(yaw_) * right + std::sin(yaw_) * ahead,
+                   std::sin(pitch_) + up * std::cos(pitch_),
+                   std::sin(yaw_) * right - std::cos(yaw_) * ahead};
+    const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    WlkRay ray{};
+    std::copy(position_.begin(), position_.end(), ray.origin);
+    for (int k = 0; k < 3; ++k) {
+      ray.direction[k] = d[k] / length;
+    }
+    ray.length = INFINITY;
+    return ray;
+  }
+
+  // Relative differences of all pixels and colours, in rising order; dark ones are left out.
+  std::vector<double> differences() {
+    const Image picture = scene.render();
+    std::vector<WlkRay> rays;
+    for (uint32_t y = 0; y < picture.height; ++y) {
+      for (uint32_t x = 0; x < picture.width; ++x) {
+        rays.push_back(rayOf(x, y));
+      }
+    }
+    auto batch = make<WlkRayBatch>();
+    batch.count = static_cast<uint32_t>(rays.size());
+    batch.rays = rays.data();
+    std::vector<double> expected(3 * rays.size());
+    check(wlkEvalSky(scene.context, &batch, expected.data(), nullptr));
+    EXPECT_EQ(picture.badValues(), 0u);
+    constexpr double DARK = 1e-6;  // of the light's irradiance, per sr
+    std::vector<double> result;
+    for (size_t i = 0; i < rays.size(); ++i) {
+      for (size_t c = 0; c < 3; ++c) {
+        const double truth = expected[3 * i + c];
+        if (truth > DARK) {
+          const double value = static_cast<double>(picture.rgba[4 * i + c]);
+          result.push_back(std::abs(value / truth - 1));
+        }
+      }
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+  // Over several suns and turns of the camera.
+  void expectWithin(const Station& from, const std::vector<double>& suns_deg, double p95,
+                    double worst) {
+    for (const double sun_deg : suns_deg) {
+      scene.setSun(sun_deg, 25);
+      std::vector<double> all;
+      for (const double yaw_deg : {20.0, 110.0, 215.0}) {
+        look(from, yaw_deg);
+        const std::vector<double> some = differences();
+        all.insert(all.end(), some.begin(), some.end());
+      }
+      std::sort(all.begin(), all.end());
+      ASSERT_FALSE(all.empty());
+      const double high = all[static_cast<size_t>(0.95 * static_cast<double>(all.size() - 1))];
+      std::printf("%8.0f m, sun %5.1f: median %.4f %%, p95 %.3f %%, worst %.3f %%\n", from.altitude,
+                  sun_deg, 100 * all[all.size() / 2], 100 * high, 100 * all.back());
+      EXPECT_LE(high, p95) << "sun at " << sun_deg;
+      EXPECT_LE(all.back(), worst) << "sun at " << sun_deg;
+    }
+  }
+
+  HeadlessScene scene{options()};
+
+ private:
+  std::array<double, 3> position_{};
+  double yaw_ = 0;
+  double pitch_ = 0;
+};
+
+// Exact limit: the table belongs to directions in the world, so a turn of the camera changes no
+// direction's light. Odd sizes have a middle pixel.
+class SkyLightTurned : public ::testing::Test {
+ protected:
+  static SceneOptions options() {
+    SceneOptions result;
+    result.width = 33;
+    result.height = 25;
+    return result;
+  }
+  HeadlessScene scene{options()};
+};
+
+TEST_F(SkyLightTurned, ADirectionsLightDoesNotDependOnTheCamera) {
+  constexpr double ROUNDING = 2e-5;  // of a direction near the horizon in float
+  scene.setSky();
+  const double lens = -static_cast<double>(make<WlkCamera>().clipFromView[5]);
+  for (const bool fog : {false, true}) {
+    if (fog) {
+      scene.setFog(1e-4f, 300);
+    }
+    for (const double altitude : {2.0, 5000.0, 4e5}) {
+      scene.setSun(altitude > 1e5 ? 3 : 15, 30);
+      scene.setCamera({0, altitude, 0}, 0, -2);
+      check(wlkPrepare(scene.context));
+      const Image first = scene.render();
+      for (const uint32_t x : {0u, 9u, 27u}) {
+        // Turned about the vertical towards a pixel of the middle row.
+        const double pitch = -2 * std::numbers::pi / 180;
+        const double right = (2 * (x + 0.5) / 33 - 1) / lens * 33 / 25;
+        const double yaw = std::atan2(right, std::cos(pitch));
+        const double up = std::atan2(std::sin(pitch), std::hypot(right, std::cos(pitch)));
+        scene.setCamera({0, altitude, 0}, yaw * 180 / std::numbers::pi,
+                        up * 180 / std::numbers::pi);
+        const Image turned = scene.render();
+        for (int c = 0; c < 3; ++c) {
+          const double a = static_cast<double>(first.at(x, 12)[c]);
+          const double b = static_cast<double>(turned.at(16, 12)[c]);
+          EXPECT_NEAR(a, b, ROUNDING * a) << "pixel " << x << " from " << altitude << " m";
+        }
+        scene.setCamera({0, altitude, 0}, 0, -2);
+      }
+    }
+  }
+}
+
+// Precision: the same sky where the world's numbers are large.
+TEST_F(SkyLightTurned, TheSkyIsTheSameTenThousandKilometresFromTheOrigin) {
+  scene.setSky();
+  scene.setSun(20, 30);
+  scene.setCamera({0, 1500, 0}, 10, 5);
+  const Image here = scene.render();
+  auto planet = make<WlkPlanet>();
+  planet.seaLevelPoint[0] = 1e7;
+  planet.seaLevelPoint[1] = -2e6;
+  planet.seaLevelPoint[2] = 7e6;
+  check(wlkSetPlanet(scene.context, &planet));
+  scene.setCamera({1e7, 1500 - 2e6, 7e6}, 10, 5);
+  const Image there = scene.render();
+  EXPECT_GT(here.mean(), 0.0);
+  EXPECT_LE(relativeRms(there, here), 1e-6);
+}
+
+TEST_F(SkyLightPicture, OfClearAirFollowsTheQuery) {
+  scene.setSky();
+  for (const Station& from : {Station{2, 20}, {2, 2}, {2000, 0}, {12000, -8}, {60000, -8}}) {
+    expectWithin(from, {60, 20, 6, 0.5}, 0.005, 0.02);
+  }
+}
+
+TEST_F(SkyLightPicture, FromSpaceFollowsTheQuery) {
+  scene.setSky();
+  for (const Station& from : {Station{130000, -10}, {400000, -20}, {36e6, -87}}) {
+    expectWithin(from, {60, 20, 2}, 0.005, 0.1);
+  }
+}
+
+TEST_F(SkyLightPicture, InTwilightFollowsTheQuery) {
+  scene.setSky();
+  for (const Station& from : {Station{2, 20}, {12000, 0}}) {
+    expectWithin(from, {-2, -4, -6}, 0.02, 0.1);
+  }
+}
+
+TEST_F(SkyLightPicture, OfFogFollowsTheQuery) {
+  scene.setSky();
+  // The query counts light of the ground that fog turns a little as the fog's, the picture as the
+  // ground's.
+  auto planet = make<WlkPlanet>();
+  std::fill_n(planet.groundAlbedo, 3, 0.0f);
+  check(wlkSetPlanet(scene.context, &planet));
+  // In thick fog the query's own 48 steps are long.
+  struct Layer {
+    float extinction;
+    double p95;
+    double worst;
+  };
+  for (const Layer& layer : {Layer{2e-5f, 0.002, 0.005}, {1e-3f, 0.01, 0.05}, {2e-2f, 0.1, 0.5}}) {
+    scene.setFog(layer.extinction, 300);
+    std::printf("fog of %g per m\n", static_cast<double>(layer.extinction));
+    for (const Station& from : {Station{2, 20}, {250, 0}, {3000, -15}}) {
+      expectWithin(from, {60, 10}, layer.p95, layer.worst);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace welkin::test
