@@ -131,8 +131,9 @@ WLK_API WlkResult wlkSetQuality(WlkContext context, WlkView view, const WlkQuali
  *  until something is created or resized, recording allocates nothing. Solves for the light that
  *  air and fog scatter more than once (0.1 to 0.4 s) if the air has changed; without it the next
  *  frames show the old light while wlkVulkanCmdUpdate solves for the new, 4 ms of CPU time each,
- *  24 in clear air, up to 110 in fog. A view whose eye rises above a tenth of ten scale heights is
- *  drawn more sharply at the edge of night if prepared again up there. [C]
+ *  24 in clear air, up to 110 in fog, and allocates when it begins and ends. Views whose eye has
+ *  risen above 1.5 scale heights (12 km on Earth) are drawn more sharply at the edge of night far
+ *  below if this is called again. [C]
  *  Errors: WRONG_STATE in CPU mode, OUT_OF_*, DEVICE_LOST. */
 WLK_API WlkResult wlkPrepare(WlkContext context);
 

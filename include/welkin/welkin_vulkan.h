@@ -121,8 +121,9 @@ WLK_API WlkResult wlkVulkanSetVolumeImage(WlkContext context, WlkVolume volume, 
  *  the image. Frames that use it must be complete. [C] */
 WLK_API WlkResult wlkVulkanForgetImage(WlkContext context, VkImage image);
 
-/** Records pending uploads. Outside a render pass, once per frame, before the views. [C]
- *  Errors: WRONG_STATE without wlkBeginFrame. */
+/** Records pending uploads. Outside a render pass, once per frame, before the views. After a change
+ *  of planet, sky or fog without wlkPrepare it also solves for some of the new light, see there.
+ * [C] Errors: WRONG_STATE without wlkBeginFrame; OUT_OF_* after such a change. */
 WLK_API WlkResult wlkVulkanCmdUpdate(WlkContext context, VkCommandBuffer commandBuffer);
 
 /** Records a view. Outside a render pass. Afterwards the command buffer's pipelines, descriptor

@@ -18,7 +18,8 @@ struct FrameUniforms {
   // Highest altitude of the moments, share of their nodes in the fog, 0 to leave them out, 1 if the
   // table holds all light.
   vec4 skyLight;
-  vec4 skyView;         // cosines of the horizon and of the table's upper end
+  // Cosines of the horizon and of the table's upper end, scale height of the moments' fog.
+  vec4 skyView;
   vec4 eyeFog;          // fog without the eye's part of its peak: albedo RGB, extinction
   vec4 fogFirst;        // 3 times its first moment, RGB; scale of the phase function
   vec4 fogSecond;       // 5/2 of its second moment, RGB

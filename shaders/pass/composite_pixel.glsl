@@ -65,10 +65,11 @@ vec3 multipleLight(Air air, AirRay ray, float reach, vec3 depth, vec3 droplets) 
 // Radiance per unit irradiance and transmittance of clear air over `reach`.
 PixelLayer clearAir(Air air, AirRay ray, float reach, float ground) {
   AirPath path = clipToAir(air, ray, skyTableReach(ground));
+  float own = clipToAir(air, ray, reach).reach;
   AirPoint first = airPoint(air, path, 0.0f);
-  AirPoint lowest = airPoint(air, path, clamp(path.lowest, 0.0f, path.reach));
+  AirPoint lowest = airPoint(air, path, clamp(path.lowest, 0.0f, max(path.reach, own)));
   AirPoint last = airPoint(air, path, path.reach);
-  AirPoint there = airPoint(air, path, min(reach, path.reach));
+  AirPoint there = airPoint(air, path, own);
   float total = skyTableOpacity(air, path, first, lowest, last);
   vec3 depth = depthOfColumns(air, columnsTo(air, path, first, lowest, there));
   float share = oneMinusExp(depth.y) / max(total, 1.0e-30f);

@@ -13,9 +13,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 3) const uint FIELD_COUNT = 1;
 layout(constant_id = 4) const bool FORWARD_SCATTERING = true;
 layout(constant_id = 5) const bool DEPTH_ENABLED = true;
-layout(constant_id = 6) const bool MULTIPLE_ENABLED = true;
 // Clear air: all of its light comes from the table.
-layout(constant_id = 7) const bool ALL_LIGHT = false;
+layout(constant_id = 6) const bool ALL_LIGHT = false;
+const bool MULTIPLE_ENABLED = FORWARD_SCATTERING;
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
 layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volume; };

@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The ray of a pixel and the distance of the engine's surface on it.
-struct PixelRay {
-  vec3 direction;
-  float surface;  // m; infinite where nothing is there
-};
-
 const float INFINITE_DISTANCE = 1.0e30f;
 
 vec3 pixelDirection(FrameUniforms frame, vec2 pixel) {

@@ -35,10 +35,10 @@ vec3 momentAt(vec2 uv, int moment) {
 SkyMoments skyMomentsAt(float altitude, float sunMu, vec3 v) {
   float top = frame.skyLight.x;
   float h = clamp(altitude, 0.0f, top);
-  float high = (1.0f - frame.skyLight.y) * sqrt(h / top);
-  if (FOG_ENABLED) {
-    high += frame.skyLight.y * oneMinusExp(h / frame.fog.z) / oneMinusExp(top / frame.fog.z);
-  }
+  // Whether the view shows it or not, the moments know of the fog.
+  float fogHeight = frame.skyView.z;
+  float high = (1.0f - frame.skyLight.y) * sqrt(h / top) +
+               frame.skyLight.y * oneMinusExp(h / fogHeight) / oneMinusExp(top / fogHeight);
   vec2 uv = vec2(sunCoordinate(sunMu),
                  (high * float(MOMENT_ALTITUDES - 1) + 0.5f) / MOMENT_ROWS);
   vec3 xx = momentAt(uv, 0);

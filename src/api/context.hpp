@@ -50,6 +50,7 @@ struct SkyLightSource {
 struct SkyLightWork {
   SkyLightSource source;
   SkyFieldSolver solver;
+  std::optional<SkyField> field;  // once it is solved
 };
 
 // A view of an engine's image, kept until wlkVulkanForgetImage.

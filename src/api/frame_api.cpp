@@ -85,6 +85,7 @@ void uploadSkyLight(WlkContext_T& c, VkCommandBuffer commands) {
   region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
   region.imageExtent = light.moments.info().extent;
   copyInto(c.device->vk(), commands, light.staging, light.moments, region, false);
+  light.now = light.staged;
   ++light.version;
   c.bytesUploaded += light.staging.size();
   ++c.updateCopies;
@@ -175,7 +176,7 @@ void renderHeadless(WlkContext_T& c, ViewState& view, const WlkHeadlessTargets& 
 // pixels gather their light themselves, some 12 km on Earth.
 bool nearSpace(const WlkContext_T& c, const ViewState& view) {
   const glm::dvec3 eye(view.camera.position[0], view.camera.position[1], view.camera.position[2]);
-  return seenFromSpace(c.skyLight, 10 * planetFrameAt(c.air.planet, eye).altitude);
+  return seenFromSpace(c.skyLight.latest(), 10 * planetFrameAt(c.air.planet, eye).altitude);
 }
 
 }  // namespace
@@ -252,7 +253,7 @@ void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
   input.volumes = view.planVolumes;
   makePlan(input, view.plan);
   const PlanetFrame eye = planetFrameAt(input.planet, input.eye);
-  view.plan.space = view.plan.multiple && seenFromSpace(c.skyLight, eye.altitude);
+  view.plan.space = view.plan.multiple && seenFromSpace(c.skyLight.now, eye.altitude);
   view.plan.allLight = tableHoldsAllLight(view.plan, eye.altitude, glm::dot(eye.up, input.toLight));
 
   RecordInput record;
@@ -302,6 +303,9 @@ WlkResult wlkPrepare(WlkContext context) {
     c.recordVolumes.reserve(c.volumes.count());
     for (uint32_t i = 0; i < c.views.slotCount(); ++i) {
       ViewState* view = c.views.at(i);
+      if (view != nullptr && nearSpace(c, *view) && !view->resources.space) {
+        view->prepared = false;
+      }
       if (view == nullptr || view->prepared) {
         continue;
       }

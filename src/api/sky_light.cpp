@@ -49,7 +49,10 @@ glm::vec4 colour(const SkyColor& c, double w) {
   return glm::vec4(glm::dvec4(c[0], c[1], c[2], w));
 }
 
-void fillConstants(const SkyField& field, SkyLightState& light) {
+SkyLightConstants constantsOf(const SkyField& field, const AirInput& air) {
+  SkyLightConstants light;
+  light.fogExtinction = air.fogExtinction;
+  light.fogScaleHeight = air.fogScaleHeight;
   light.top = field.top();
   light.fogShare = field.air().fogExtinction > 0 ? SkyAxes::FOG_SHARE : 0;
   const AirInput& eye = field.eyeAir();
@@ -63,6 +66,7 @@ void fillConstants(const SkyField& field, SkyLightState& light) {
   light.fogFirst = colour(first, 1 / (1 - field.eyePeak()));
   light.fogSecond = colour(second, 0);
   light.fogBound = colour(field.fogBound(), 0);
+  return light;
 }
 
 // The present air; without a light as for the one that may be set later, probably as large as the
@@ -87,20 +91,24 @@ SkyLightSource sourceOf(const WlkContext_T& c, const AirQuery& query) {
   return source;
 }
 
-// Hands a field over to the next recordUpdate.
+// Hands a field over to the next recordUpdate, or changes nothing.
 void stage(WlkContext_T& c, const SkyField& field, const SkyLightSource& source) {
+  vk::Image made;
   if (!c.skyLight.moments) {
     vk::ImageInfo info;
     info.format = VK_FORMAT_R32G32B32A32_SFLOAT;
     info.extent = {SkyField::SUNS, ROWS, 1};
     info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    c.skyLight.moments = vk::Image(*c.device, info);
+    made = vk::Image(*c.device, info);
   }
   vk::Buffer staging(*c.device, ROWS * ROW_FLOATS * sizeof(float), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                      true);
   fillRows(field, static_cast<float*>(staging.data()));
   c.skyLight.staging = std::move(staging);
-  fillConstants(field, c.skyLight);
+  if (made) {
+    c.skyLight.moments = std::move(made);
+  }
+  c.skyLight.staged = constantsOf(field, source.air);
   c.skyLightSource = source;
 }
 
@@ -112,10 +120,9 @@ void prepareSkyLight(WlkContext_T& c) {
   }
   const AirQuery query = presentAir(c);
   const SkyLightSource source = sourceOf(c, query);
-  if (same(source, c.skyLightSource)) {
-    return;
+  if (!same(source, c.skyLightSource)) {
+    stage(c, skyFieldOf(c, query), source);
   }
-  stage(c, skyFieldOf(c, query), source);
   c.skyLightWork.reset();
 }
 
@@ -130,22 +137,27 @@ void advanceSkyLight(WlkContext_T& c) {
     prepareSkyLight(c);
     return;
   }
-  if (!c.skyLightWork) {
-    if (same(source, c.skyLightSource)) {
-      return;
-    }
-    c.skyLightWork = std::make_unique<SkyLightWork>(
-        SkyLightWork{source, SkyFieldSolver(skyFieldInputOf(c, query))});
-  }
-  if (!c.skyLightWork->solver.advance(ROWS_PER_CALL)) {
+  if (same(source, c.skyLightSource)) {
+    c.skyLightWork.reset();
     return;
   }
-  const std::unique_ptr<SkyLightWork> work = std::move(c.skyLightWork);
-  SkyField field = work->solver.take();
-  if (work->source.fogPhase) {
-    finishSkyField(field, work->source.fogPhase->particle);
+  if (!c.skyLightWork) {
+    c.skyLightWork = std::make_unique<SkyLightWork>(
+        SkyLightWork{source, SkyFieldSolver(skyFieldInputOf(c, query)), {}});
   }
-  stage(c, field, work->source);
+  SkyLightWork& work = *c.skyLightWork;
+  if (!work.solver.advance(ROWS_PER_CALL)) {
+    return;
+  }
+  if (!work.field) {
+    SkyField field = work.solver.take();
+    if (work.source.fogPhase) {
+      finishSkyField(field, work.source.fogPhase->particle);
+    }
+    work.field = std::move(field);
+  }
+  stage(c, *work.field, work.source);
+  c.skyLightWork.reset();
 }
 
 }  // namespace welkin

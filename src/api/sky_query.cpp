@@ -77,14 +77,15 @@ void finishSkyField(SkyField& field, const Particle& droplets) {
 
 const SkyField& skyFieldOf(WlkContext_T& c, const AirQuery& query) {
   const SkyFieldInput input = skyFieldInputOf(c, query);
+  const bool fog = query.air.fogExtinction > 0;
   if (!c.skyField || !(c.skyField->input == input)) {
-    const bool fog = query.air.fogExtinction > 0;
-    c.skyField = std::make_unique<SkyFieldEntry>(
-        SkyFieldEntry{input, fog ? c.air.fogPhase : nullptr, solveSkyField(input)});
+    auto made = std::make_unique<SkyFieldEntry>(SkyFieldEntry{input, {}, solveSkyField(input)});
     if (fog) {
-      finishSkyField(c.skyField->field, *query.droplets);
+      finishSkyField(made->field, *query.droplets);
     }
+    c.skyField = std::move(made);
   }
+  c.skyField->fogPhase = fog ? c.air.fogPhase : nullptr;
   return c.skyField->field;
 }
 

@@ -295,7 +295,13 @@ void makePlan(const PlanInput& in, Plan& plan) {
   plan.air = in.sky && (in.layers & WLK_LAYER_SKY) != 0;
   plan.fog = in.fog && (in.layers & WLK_LAYER_FOG) != 0;
   const PlanetFrame eye = planetFrameAt(in.planet, in.eye);
-  plan.lightReaches = in.light && lightReachesAir(in, eye);
+  // The passes of a lit volume shade the air before it as well.
+  plan.lightReaches =
+      in.light && (lightReachesAir(in, eye) ||
+                   std::any_of(plan.volumes.begin(), plan.volumes.end(), [](const auto& volume) {
+                     return volume.drawn && volume.lit &&
+                            volume.lightReason != WLK_REASON_NO_SKIP_FLAG;
+                   }));
   plan.light = plan.lightReaches || (in.light && in.quality.noSkip);
   plan.disk =
       plan.air && in.light && (in.layers & WLK_LAYER_SUN_DISK) != 0 && in.lightAngularRadius > 0;

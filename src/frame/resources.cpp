@@ -222,10 +222,10 @@ vk::PipelineKey lightKey(uint32_t fields, bool forward) {
 }
 
 vk::PipelineKey eyeKey(const EyeVariant& v, uint32_t fields, bool forward) {
-  return {vk::Pass::EyeSlices,
-          VK_FORMAT_UNDEFINED,
-          {v.air, v.fog, v.light, fields, forward ? 1u : 0u, v.depth ? 1u : 0u, forward ? 1u : 0u,
-           v.allLight ? 1u : 0u}};
+  return {
+      vk::Pass::EyeSlices,
+      VK_FORMAT_UNDEFINED,
+      {v.air, v.fog, v.light, fields, forward ? 1u : 0u, v.depth ? 1u : 0u, v.allLight ? 1u : 0u}};
 }
 
 vk::PipelineKey skyTableKey(bool air, bool fog, bool allLight) {
@@ -259,6 +259,7 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   Draft draft(device, memory);
   ViewResources& r = draft.resources;
   r.volumeCapacity = volumeCount;
+  r.space = features.space;
   const VkDeviceSize alignment =
       std::max<VkDeviceSize>(device.properties().limits.minUniformBufferOffsetAlignment, 16);
   r.volumeStride = alignUp(sizeof(VolumeUniforms), alignment);

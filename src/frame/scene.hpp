@@ -95,17 +95,28 @@ struct FrameRecord {
   std::pmr::vector<PassTime> times;
 };
 
-// Light scattered more than once, as the passes read it.
-struct SkyLightState {
-  vk::Image moments;   // blocks of altitudes by suns, one below the other; last row: the ground's
-  vk::Buffer staging;  // until they are uploaded
-  uint64_t version = 0;
+// Numbers that belong to moments.
+struct SkyLightConstants {
   double top = 1;  // highest altitude of the moments, m
   double fogShare = 0;
+  // Of the fog they were solved for: the scene's may have changed since.
+  double fogExtinction = 0;
+  double fogScaleHeight = 1;
   glm::vec4 eyeFog{0};
   glm::vec4 fogFirst{0};
   glm::vec4 fogSecond{0};
   glm::vec4 fogBound{0};
+};
+
+// Light scattered more than once, as the passes read it.
+struct SkyLightState {
+  vk::Image moments;   // blocks of altitudes by suns, one below the other; last row: the ground's
+  vk::Buffer staging;  // until they are uploaded
+  SkyLightConstants staged;
+  SkyLightConstants now;  // of what is in `moments`
+  uint64_t version = 0;
+
+  const SkyLightConstants& latest() const { return staging ? staged : now; }
 };
 
 // What a view's sky table was made for: it changes with these numbers only.
@@ -135,7 +146,8 @@ struct ViewResources {
   VkDeviceSize fogOffset = 0;
   VkDeviceSize volumeStride = 0;
   vk::Image skyTable;
-  vk::Image skyPeak;  // where there is fog
+  vk::Image skyPeak;   // where there is fog
+  bool space = false;  // pixels may gather their own light
   SkyTableKey skyKey{};
   uint64_t skyVersion = 0;  // SkyLightState::version of what is in the table, 0 if nothing is
   vk::Buffer counters;

@@ -18,18 +18,22 @@ glm::vec3 vec(const float (&v)[3]) {
 // Of the moments' top: where pixels begin to gather their own light.
 constexpr double SPACE = 1.5;
 
-void fillSky(double radius, double altitude, const Plan& plan, const SkyLightState& sky,
+void fillSky(const AirState& air, double altitude, const Plan& plan, const SkyLightConstants& sky,
              interface_::FrameUniforms& out) {
+  const double radius = air.planet.radius;
   const double h = std::max(altitude, 0.0);
   const double r = radius + h;
   // Rays from above the moments' air that meet it at all.
-  const double rise = r > 0 ? (radius + SPACE * sky.top) / r : 1;
+  const double rise = (radius + SPACE * sky.top) / r;
   const double upper = rise < 1 ? -std::sqrt((1 - rise) * (1 + rise)) : 1;
   out.skyLight = {static_cast<float>(sky.top), static_cast<float>(sky.fogShare),
                   plan.lightReaches ? 1.0f : 0.0f, plan.allLight ? 1.0f : 0.0f};
-  out.skyView = {static_cast<float>(model::f64::horizonMu(h, radius)), static_cast<float>(upper), 0,
-                 0};
+  out.skyView = {static_cast<float>(model::f64::horizonMu(h, radius)), static_cast<float>(upper),
+                 static_cast<float>(sky.fogScaleHeight), 0};
   out.eyeFog = sky.eyeFog;
+  // The eye's fog is a part of the scene's, which may be thicker or thinner than the solved one.
+  const double share = sky.fogExtinction > 0 ? out.eyeFog.w / sky.fogExtinction : 1;
+  out.eyeFog.w = static_cast<float>(share * (air.fog ? air.fog->extinction : 0.0));
   out.fogFirst = sky.fogFirst;
   out.fogSecond = sky.fogSecond;
   out.fogBound = sky.fogBound;
@@ -48,7 +52,7 @@ float targetLimit(uint32_t welkinFormat) {
   }
 }
 
-bool seenFromSpace(const SkyLightState& sky, double altitude) {
+bool seenFromSpace(const SkyLightConstants& sky, double altitude) {
   return altitude > SPACE * sky.top;
 }
 
@@ -106,7 +110,7 @@ void fillFrame(const AirState& air, const SkyLightState& sky, const ViewState& v
   const PixelRect& rect = view.plan.volumeRect;
   out.volumeRect = {static_cast<float>(rect.x0), static_cast<float>(rect.y0),
                     static_cast<float>(rect.x1), static_cast<float>(rect.y1)};
-  fillSky(air.planet.radius, frame.altitude, view.plan, sky, out);
+  fillSky(air, frame.altitude, view.plan, sky.now, out);
 }
 
 SkyTableKey skyTableKeyOf(const interface_::FrameUniforms& frame) {

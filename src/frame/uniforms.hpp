@@ -39,7 +39,7 @@ struct AirState {
 void fillFrame(const AirState& air, const SkyLightState& sky, const ViewState& view,
                interface_::FrameUniforms& out);
 // Whether the eye is so high that its table is too coarse for the edge of night below.
-bool seenFromSpace(const SkyLightState& sky, double altitude);
+bool seenFromSpace(const SkyLightConstants& sky, double altitude);
 // Whether a table of all light is as exact as evaluating every pixel: clear air without edges of
 // night in it.
 bool tableHoldsAllLight(const Plan& plan, double altitude, double sunMu);

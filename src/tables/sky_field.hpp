@@ -55,15 +55,14 @@ class SkyField {
   SkyColor irradianceAt(double sunMu) const;
   int orders() const { return orders_; }
   // What GPU passes gather by: the air as the eye sees it and its fog's moments, the share of the
-  // fog's peak that it does not see, the fog's moments without all of the peak, and the tables
-  // themselves: [altitude][sun][moment][4 colours] and [sun][4 colours].
+  // fog's peak that it does not see, and the tables themselves: [altitude][sun][moment][4 colours]
+  // and [sun][4 colours].
   const AirInput& eyeAir() const { return eye_; }
   const std::array<SkyColor, 2>& eyeMoments() const { return eyeMoments_; }
   double eyePeak() const { return eyePeak_; }
   // Largest value of the fog's phase function without the eye's part of its peak, RGB, 1/sr.
   const SkyColor& fogBound() const { return fogBound_; }
   void boundFogPhase(const SkyColor& bound) { fogBound_ = bound; }
-  const std::array<SkyColor, 2>& fogMoments() const { return fogMoments_; }
   const std::vector<float>& moments() const { return moments_; }
   const std::vector<float>& irradiance() const { return irradiance_; }
   // Highest altitude of the moments.
