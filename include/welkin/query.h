@@ -35,14 +35,14 @@ typedef struct WlkRayBatch {
   uint32_t reserved0;
 } WlkRayBatch;
 
-/** Air and fog along rays, by the same model text as the GPU: in-scattered radiance and
+/** Air, absorber and fog along rays, by the GPU's model text: in-scattered radiance and
  *  transmittance, 3 values per ray; either output may be null. The radiance is without the sun's
  *  disk and without the ground that the ray may end at; ground's light that air and fog scatter
  *  into the ray belongs to it. Volumes are not seen. In double precision, but the orders after
  *  the first only to 1e-6. Error of the radiance against Monte Carlo with suns 10 degrees high or
  *  more, 90 % of the rays: 1 % in clear air, 2 % in haze, 10 % in thick fog. Cost per ray: 20 us
  *  in clear air, 30 us with fog, 3 to 5 us with maxOrder 1. The first call after a change of
- *  planet, sky, fog or the light's size takes 0.1 to 0.4 s more unless maxOrder is 1. [C]
+ *  planet, sky, absorber, fog or the light's size takes 0.1 to 0.4 s more unless maxOrder is 1. [C]
  *  Errors: INVALID_ARGUMENT (rays, stride, maxOrder, origin, direction, length), and nothing is
  *  written. */
 WLK_API WlkResult wlkEvalSky(WlkContext context, const WlkRayBatch* batch, double* radiance,
@@ -51,8 +51,8 @@ WLK_API WlkResult wlkEvalSky(WlkContext context, const WlkRayBatch* batch, doubl
 /** Part of the light that air and fog let through between two world points (m, |x| <= 1e9): 3
  *  values in [0, 1], the same both ways. 0 if the planet is between them: the straight line
  *  passes more than 1 m below sea level or, if a point lies below sea level, below the lower
- *  point. Exactly 1 without air and fog, and if the points coincide. Volumes are not seen. Error
- *  of the optical depth 0.2 %; cost 1 us. [C]
+ *  point. Exactly 1 without air, absorber and fog, and if the points coincide. Volumes are not
+ *  seen. Error of the optical depth 0.2 %; cost 1 us. [C]
  *  Errors: INVALID_ARGUMENT (from, to, transmittance), and nothing is written. */
 WLK_API WlkResult wlkEvalTransmittance(WlkContext context, const double from[3], const double to[3],
                                        double transmittance[3]);
@@ -75,8 +75,8 @@ WLK_API WlkResult wlkEvalLight(WlkContext context, uint32_t lightIndex, const do
  *  6 % in haze (vertical optical depth 0.01); in fog (0.2) 10 % with suns of 30 degrees and more,
  *  20 % at 10, 30 % at 2. The point may be as high as 10 scale heights of air and fog, below the
  *  ground counts as on it; the result is 0 without a light. Cost: 1 us, with fog 60 us; the first
- *  call after a change of planet, sky, fog or the light's size takes 0.1 to 0.4 s more. [C]
- *  Errors: INVALID_ARGUMENT (position, coefficients), and nothing is written. */
+ *  call after a change of planet, sky, absorber, fog or the light's size takes 0.1 to 0.4 s more.
+ *  [C] Errors: INVALID_ARGUMENT (position, coefficients), and nothing is written. */
 WLK_API WlkResult wlkEvalAmbient(WlkContext context, const double position[3],
                                  double coefficients[WLK_AMBIENT_VALUES]);
 

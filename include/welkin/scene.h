@@ -46,7 +46,30 @@ typedef struct WlkSky {
 /** Sets the air; null means none (the default of a new context). [C] */
 WLK_API WlkResult wlkSetSky(WlkContext context, const WlkSky* sky);
 
-/** A directional light with a disk: the sun. */
+/** A gas that absorbs and does not scatter: ozone. A part of the air: it is nothing without
+ *  wlkSetSky. Its density rises linearly with altitude to a peak and falls linearly to 0 above it,
+ *  as far as below. */
+typedef struct WlkAbsorber {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Absorption coefficient at peakAltitude. RGB, 1/m, [0, 1], default 2.7e-6, 1.7e-6, 8.5e-8: 300
+   *  Dobson units of ozone as the eye sees them. Ozone absorbs most at 600 nm, between the
+   *  wavelengths; at 680, 550 and 440 nm alone it is 6.5e-7, 1.881e-6, 8.5e-8, with which twilight
+   *  is green (docs/accuracy-and-performance.md, Colour). Times halfWidth, it is the vertical
+   *  optical depth where the whole profile is above the ground. */
+  float extinction[3];
+  /** Altitude of the densest part. m, [0, 1e5], default 25000. */
+  float peakAltitude;
+  /** From the peak to where the density is 0, up and down. m, [100, 1e5], default 15000. */
+  float halfWidth;
+  uint32_t reserved0;
+} WlkAbsorber;
+
+/** Sets the absorbing gas; null means none (the default). [C] */
+WLK_API WlkResult wlkSetAbsorber(WlkContext context, const WlkAbsorber* absorber);
+
+/** A directional light with a disk: the sun, or a moon (wlkInitMoon). */
 typedef struct WlkLight {
   uint32_t sType;
   uint32_t structSize;
@@ -59,10 +82,29 @@ typedef struct WlkLight {
   /** Irradiance on a surface facing the light, outside the atmosphere. RGB, [0, 1e6], default 1. */
   float irradiance[3];
   uint32_t reserved0;
+  /** Exponent a of the disk's brightness mu^a, mu being the cosine between the surface's normal and
+   *  the line of sight (Hestroffer and Magnan 1998). RGB, [0, 2], default 0: uniform, also for
+   *  callers whose structSize ends before it. The Sun: 0.36, 0.47, 0.62. */
+  float limbDarkening[3];
+  /** Unit vector towards what lights the body (for a moon: the Sun); the disk shows its phase.
+   *  `irradiance` is the light of that phase. Default (0, 0, 0), also for callers whose structSize
+   *  ends before it: it shines by itself. */
+  float litFrom[3];
 } WlkLight;
 
-/** Replaces all lights. `stride` is the distance between elements in bytes. count 0: no light.
- *  [C] Errors: LIMIT_EXCEEDED over WlkCapabilities::maxLights. */
+/** Fills a light with the Earth's moon as seen from the Earth: direction, disk, phase, and the
+ *  irradiance that it reflects, 2.5e-6 of the sun's when full (Allen 1973, colour of Kieffer and
+ *  Stone 2005; without the surge within 2 degrees of full moon). `toSun` and `toMoon` are unit
+ *  vectors, `sunIrradiance` is that of the sun's light (RGB, [0, 1e6]). `moon` must have sType and
+ *  structSize set. [F]
+ *  Errors: INVALID_ARGUMENT (toSun, toMoon, sunIrradiance, moon), UNKNOWN_STRUCT. */
+WLK_API WlkResult wlkInitMoon(const float toSun[3], const float toMoon[3],
+                              const float sunIrradiance[3], WlkLight* moon);
+
+/** Replaces all lights: sun and moon, or two suns. Those below every horizon are left out of the
+ *  frame; volumes are lit by the first of the others. A second light, and a disk that is not
+ *  uniform where all were, need wlkPrepare. `stride` is the distance between elements in bytes.
+ *  count 0: no light. [C] Errors: LIMIT_EXCEEDED over WlkCapabilities::maxLights. */
 WLK_API WlkResult wlkSetLights(WlkContext context, uint32_t count, uint32_t stride,
                                const WlkLight* lights);
 
@@ -76,13 +118,13 @@ enum {
   WLK_PHASE_TABLE = 2
 };
 
-/** A fog layer of water droplets: extinction falls exponentially with altitude, phase function of
- *  the droplet size. */
+/** A layer of particles, water droplets unless `medium` says otherwise: fog, haze, dust. Extinction
+ *  falls exponentially with altitude and is the same for all colours. */
 typedef struct WlkFog {
   uint32_t sType;
   uint32_t structSize;
   const void* next;
-  /** Median droplet diameter. um, [0.1, 50], default 10. */
+  /** Median droplet diameter. um, [0.1, 50], default 10. Without effect if `medium` is set. */
   float dropletDiameter_um;
   /** Extinction coefficient at baseAltitude. 1/m, [0, 10], default 0.002. */
   float extinction;
@@ -92,11 +134,18 @@ typedef struct WlkFog {
   float scaleHeight;
   /** Single-scattering albedo. RGB, [0, 1], default 1. */
   float singleScatteringAlbedo[3];
-  /** WLK_PHASE_*. Default WLK_PHASE_DEFAULT: TABLE. */
+  /** WLK_PHASE_*. Default WLK_PHASE_DEFAULT: TABLE. Without effect if `medium` is set. */
   uint32_t phaseModel;
+  /** Particles of the layer; id 0: droplets of dropletDiameter_um. Only the phase function is
+   *  taken; singleScatteringAlbedo above is the layer's. It is copied: the medium may be destroyed
+   *  afterwards. Where WlkMediumOptics::deltaFraction is not 0 (rain, ice, snow), what goes
+   *  straight on is taken off the extinction, as volumes do. Default 0, also for callers whose
+   *  structSize ends before it. */
+  WlkMedium medium;
 } WlkFog;
 
-/** Sets the fog layer; null means none (the default). [C] */
+/** Sets the fog layer; null means none (the default). [C] Errors: INVALID_ARGUMENT, INVALID_HANDLE
+ *  (medium). */
 WLK_API WlkResult wlkSetFog(WlkContext context, const WlkFog* fog);
 
 /** Kinds of particles; sizes are medians of number, log-normal with standard deviation `spread`. */
@@ -168,6 +217,40 @@ WLK_API WlkResult wlkCreateMedium(WlkContext context, const WlkMediumInfo* info,
                                   WlkMedium* medium); /* [C] */
 /** Errors: WRONG_STATE while a volume uses it. [C] */
 WLK_API WlkResult wlkDestroyMedium(WlkContext context, WlkMedium medium);
+
+/** Atmospheres to start from; docs/atmospheres.md has numbers and sources. */
+enum {
+  /** The Earth on a clear day: 300 Dobson units of ozone, vertical optical depth of haze 0.05. */
+  WLK_ATMOSPHERE_EARTH_CLEAR = 0,
+  /** Summer haze: 0.25. */
+  WLK_ATMOSPHERE_EARTH_HAZY = 1,
+  /** A polluted city: 0.7, of particles that absorb. */
+  WLK_ATMOSPHERE_EARTH_POLLUTED = 2,
+  /** Thin carbon dioxide and dust of vertical optical depth 0.5. */
+  WLK_ATMOSPHERE_MARS = 3
+};
+
+/** What an atmosphere is made of, each part as its wlkSet function or wlkCreateMedium takes it. */
+typedef struct WlkAtmospherePreset {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  WlkPlanet planet;
+  WlkSky sky;
+  /** extinction 0 where there is no such gas. */
+  WlkAbsorber absorber;
+  /** `medium` is 0: create hazeMedium and set it. */
+  WlkFog haze;
+  WlkMediumInfo hazeMedium;
+  /** The sun as seen from there, straight up. `irradiance` is relative to that at the Earth: 1
+   *  there; multiply it by the engine's own value. */
+  WlkLight sun;
+} WlkAtmospherePreset;
+
+/** Writes one of WLK_ATMOSPHERE_*; the caller changes what it wants and sets what it needs. Nested
+ *  structures are written with sType, structSize and next = null. [F]
+ *  Errors: INVALID_ARGUMENT (preset, structSize), UNKNOWN_STRUCT. */
+WLK_API WlkResult wlkGetAtmospherePreset(uint32_t preset, WlkAtmospherePreset* atmosphere);
 
 /** What one particle of a medium does to light. RGB. */
 typedef struct WlkMediumOptics {

@@ -33,6 +33,16 @@ enum {
 
 enum { WLK_TARGET_RGBA16_FLOAT = 1, WLK_TARGET_RGBA32_FLOAT = 2, WLK_TARGET_B10G11R11_FLOAT = 3 };
 
+/** What the three channels of the radiance are. Transmittance is per channel in any case. */
+enum {
+  /** Radiance at 680, 550 and 440 nm. */
+  WLK_COLOR_WAVELENGTHS = 0,
+  /** Linear sRGB (Rec. 709, D65) of the whole spectrum that these three stand for. Irradiance 1, 1,
+   *  1 is then sunlight outside the atmosphere: luminance 1, colour (1.098, 0.977, 0.940). Colours
+   *  outside the gamut are cut off at 0. */
+  WLK_COLOR_SRGB = 1
+};
+
 typedef struct WlkViewInfo {
   uint32_t sType;
   uint32_t structSize;
@@ -46,6 +56,9 @@ typedef struct WlkViewInfo {
   uint32_t targetFormat;
   /** Bits WLK_LAYER_*. Default all. */
   uint64_t layers;
+  /** WLK_COLOR_*. Default WAVELENGTHS. */
+  uint32_t color;
+  uint32_t reserved0;
 } WlkViewInfo;
 
 WLK_API WlkResult wlkCreateView(WlkContext context, const WlkViewInfo* info,

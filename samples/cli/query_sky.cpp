@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// welkin sky: radiance and transmittance of air and fog along rays.
+// welkin sky: radiance and transmittance of air, absorber and fog along rays.
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -36,7 +36,9 @@ Columns of OUT: those of IN, then
   first_r, _g, _b           with --orders: light that is scattered once
   transmittance_r, _g, _b   [0, 1]
 r, g, b are 680, 550, 440 nm. Without --scene: clear air, one light of irradiance 1 overhead, no
-fog. --set changes either, for example --set lights.0.elevation_deg=5 --set fog.extinction=0.001)";
+ozone, no fog. --set changes either, for example
+  --set lights.0.elevation_deg=5 --set fog.extinction=0.001
+  --set atmosphere=mars --set planet.groundAlbedo=0 --set absorber={} --set fog=null)";
 
 using Columns = std::vector<std::string>;
 const Columns& vectorColumns() {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "cli/droplet_phase.hpp"
 #include "common/error.hpp"
@@ -144,16 +145,33 @@ truth::ExponentialLayer airLayer(const WlkSky& sky) {
   return layer;
 }
 
-truth::ExponentialLayer fogLayer(MediaTruth& media, const WlkFog& fog) {
+truth::AbsorbingLayer absorbingLayer(const WlkAbsorber& absorber) {
+  truth::AbsorbingLayer layer;
+  layer.peak = double{absorber.peakAltitude};
+  layer.halfWidth = double{absorber.halfWidth};
+  layer.extinction = rgbOf(absorber.extinction);
+  return layer;
+}
+
+// `medium` instead of droplets, if there is one; the albedo is the layer's own.
+truth::ExponentialLayer fogLayer(MediaTruth& media, const WlkFog& fog,
+                                 const std::optional<host::MediumDesc>& medium) {
   auto info = host::make<WlkMediumInfo>();
   info.particle = WLK_PARTICLE_FOG;
   info.diameter_um = fog.dropletDiameter_um;
+  if (medium) {
+    info = host::mediumInfo(*medium);
+  }
+  std::copy_n(fog.singleScatteringAlbedo, 3, info.singleScatteringAlbedo);
+  const TruthMedium particles = media.make(info, medium ? "media." + medium->name : "fog");
   truth::ExponentialLayer layer;
   layer.base = double{fog.baseAltitude};
   layer.scaleHeight = double{fog.scaleHeight};
-  layer.extinction.fill(double{fog.extinction});
-  layer.albedo = rgbOf(fog.singleScatteringAlbedo);
-  layer.phase = media.make(info, "fog").phase;
+  for (size_t c = 0; c < 3; ++c) {
+    layer.extinction[c] = double{fog.extinction} * particles.extinction[c];
+  }
+  layer.albedo = particles.albedo;
+  layer.phase = particles.phase;
   return layer;
 }
 
@@ -258,9 +276,12 @@ ReferenceScene makeReferenceScene(WlkContext context, const host::Scene& scene,
   MediaTruth truths(context, scene, settings, progress);
   if (air) {
     out.layers.push_back(airLayer(*scene.sky));
+    if (scene.absorber) {
+      out.absorbers.push_back(absorbingLayer(*scene.absorber));
+    }
   }
   if (fog) {
-    out.layers.push_back(fogLayer(truths, *scene.fog));
+    out.layers.push_back(fogLayer(truths, *scene.fog, scene.fogMedium));
   }
   if (layer(WLK_LAYER_VOLUMES)) {
     std::vector<TruthMedium> media;

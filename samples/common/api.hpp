@@ -34,6 +34,12 @@ inline constexpr WlkStructType structType(const WlkLight&) {
 inline constexpr WlkStructType structType(const WlkFog&) {
   return WLK_STRUCT_FOG;
 }
+inline constexpr WlkStructType structType(const WlkAbsorber&) {
+  return WLK_STRUCT_ABSORBER;
+}
+inline constexpr WlkStructType structType(const WlkAtmospherePreset&) {
+  return WLK_STRUCT_ATMOSPHERE_PRESET;
+}
 inline constexpr WlkStructType structType(const WlkMediumInfo&) {
   return WLK_STRUCT_MEDIUM_INFO;
 }

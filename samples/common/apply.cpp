@@ -20,6 +20,20 @@ void uploadField(WlkContext context, const Scene& scene, WlkVolume volume, uint3
   check(wlkUploadVolume(context, volume, &upload), scene.file, key);
 }
 
+void applyFog(WlkContext context, const Scene& scene) {
+  if (!scene.fog || !scene.fogMedium) {
+    check(wlkSetFog(context, scene.fog ? &*scene.fog : nullptr), scene.file, "fog");
+    return;
+  }
+  const WlkMediumInfo info = mediumInfo(*scene.fogMedium);
+  WlkFog fog = *scene.fog;
+  check(wlkCreateMedium(context, &info, &fog.medium), scene.file, "media." + scene.fogMedium->name);
+  const WlkResult result = wlkSetFog(context, &fog);
+  // The layer has a copy of the phase function. Destroying cannot fail, and keeps the last error.
+  static_cast<void>(wlkDestroyMedium(context, fog.medium));
+  check(result, scene.file, "fog");
+}
+
 void applyVolume(WlkContext context, const Scene& scene, size_t index,
                  const std::vector<WlkMedium>& media) {
   const VolumeDesc& desc = scene.volumes[index];
@@ -88,10 +102,12 @@ RasterResult readOpaque(const Scene& scene) {
 void applyWorld(WlkContext context, const Scene& scene) {
   check(wlkSetPlanet(context, &scene.planet), scene.file, "planet");
   check(wlkSetSky(context, scene.sky ? &*scene.sky : nullptr), scene.file, "sky");
+  check(wlkSetAbsorber(context, scene.absorber ? &*scene.absorber : nullptr), scene.file,
+        "absorber");
   check(wlkSetLights(context, static_cast<uint32_t>(scene.lights.size()), sizeof(WlkLight),
                      scene.lights.data()),
         scene.file, "lights");
-  check(wlkSetFog(context, scene.fog ? &*scene.fog : nullptr), scene.file, "fog");
+  applyFog(context, scene);
 }
 
 void applyVolumes(WlkContext context, const Scene& scene, const Progress& progress) {

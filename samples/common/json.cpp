@@ -132,6 +132,10 @@ bool JsonNode::has(const char* key) const {
   return found != value_->end() && !found->is_null();
 }
 
+bool JsonNode::isNull(const char* key) const {
+  return value_->is_object() && value_->contains(key) && !has(key);
+}
+
 JsonNode JsonNode::at(const char* key) const {
   if (!has(key)) {
     throw InputError(file_, path_.empty() ? key : path_ + "." + key, "expected a value, got none");
@@ -196,6 +200,10 @@ std::string JsonNode::text() const {
     fail("expected a string");
   }
   return value_->get<std::string>();
+}
+
+bool JsonNode::isText() const {
+  return value_->is_string();
 }
 
 Vec3 JsonNode::vec3() const {

@@ -33,6 +33,8 @@ class JsonNode {
   void onlyKeys(std::initializer_list<const char*> keys) const;
   /// True if the key is there and not null.
   [[nodiscard]] bool has(const char* key) const;
+  /// True if the key is there and null: taken away rather than left out.
+  [[nodiscard]] bool isNull(const char* key) const;
   /// The child, which must be there.
   [[nodiscard]] JsonNode at(const char* key) const;
   /// The elements; must be an array.
@@ -45,6 +47,7 @@ class JsonNode {
   [[nodiscard]] uint32_t count(uint32_t low = 0, uint32_t high = UINT32_MAX) const;
   [[nodiscard]] bool boolean() const;
   [[nodiscard]] std::string text() const;
+  [[nodiscard]] bool isText() const;
   /// [x, y, z].
   [[nodiscard]] Vec3 vec3() const;
   /// [r, g, b], or one number for grey.

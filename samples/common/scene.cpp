@@ -28,6 +28,12 @@ Json readWithBases(const std::string& file, int depth) {
   own.erase("base");
   Json merged = readWithBases(base, depth + 1);
   merged.merge_patch(own);
+  // A patch drops a null; here the section is taken away, from `atmosphere` too.
+  for (const auto& [key, value] : own.items()) {
+    if (value.is_null()) {
+      merged[key] = nullptr;
+    }
+  }
   return merged;
 }
 
@@ -57,12 +63,12 @@ Json readSceneJson(const std::string& file, const std::vector<std::string>& assi
 
 Scene parseScene(const Json& json, const std::string& file) {
   const JsonNode root(json, file);
-  root.onlyKeys({"description", "planet", "sky", "lights", "fog", "media", "volumes", "quality",
-                 "view", "camera", "opaque", "png"});
+  root.onlyKeys({"description", "atmosphere", "planet", "sky", "absorber", "lights", "fog", "media",
+                 "volumes", "quality", "view", "camera", "opaque", "png"});
   Scene scene;
   scene.file = file;
-  parseWorld(root, scene);
   parseVolumes(root, scene);
+  parseWorld(root, scene);
   parseView(root, scene);
   if (scene.geometry && scene.geometry->terrain && scene.planet.up[1] < 0.999999f) {
     throw InputError(file, "planet.up", "expected [0, 1, 0] in a scene with terrain");

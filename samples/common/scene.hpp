@@ -86,8 +86,11 @@ struct Scene {
   std::string file;
   WlkPlanet planet{};
   std::optional<WlkSky> sky;
+  std::optional<WlkAbsorber> absorber;
   std::vector<WlkLight> lights;
+  /// Without its medium, which exists in a context only.
   std::optional<WlkFog> fog;
+  std::optional<MediumDesc> fogMedium;
   std::vector<MediumDesc> media;
   std::vector<VolumeDesc> volumes;
   WlkQuality quality{};
@@ -113,7 +116,7 @@ uint32_t parsePhaseModel(const JsonNode& node);
 /// Reads a table of angle_deg, red, green, blue: rows rising from 0 to 180 degrees, any unit >= 0.
 void readUserPhase(const std::string& file, MediumDesc& medium);
 
-/// Parts of parseScene, one file each.
+/// Parts of parseScene, one file each. The world may name media: parse the volumes before it.
 void parseWorld(const JsonNode& root, Scene& scene);
 void parseVolumes(const JsonNode& root, Scene& scene);
 void parseView(const JsonNode& root, Scene& scene);

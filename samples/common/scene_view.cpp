@@ -31,7 +31,7 @@ WlkQuality parseQuality(const JsonNode& node) {
 }
 
 WlkViewInfo parseViewInfo(const JsonNode& node) {
-  node.onlyKeys({"size", "layers", "composite"});
+  node.onlyKeys({"size", "layers", "composite", "color"});
   auto view = make<WlkViewInfo>();
   if (node.has("size")) {
     const std::vector<JsonNode> edges = node.at("size").elements();
@@ -54,6 +54,11 @@ WlkViewInfo parseViewInfo(const JsonNode& node) {
     view.composite = node.at("composite").word({"compute", "separate"}) == 0
                          ? uint32_t{WLK_COMPOSITE_COMPUTE}
                          : uint32_t{WLK_COMPOSITE_SEPARATE};
+  }
+  if (node.has("color")) {
+    view.color = node.at("color").word({"wavelengths", "srgb"}) == 0
+                     ? uint32_t{WLK_COLOR_WAVELENGTHS}
+                     : uint32_t{WLK_COLOR_SRGB};
   }
   return view;
 }

@@ -1,74 +1,141 @@
 // SPDX-License-Identifier: MIT
-// The sections planet, sky, lights, fog.
+// The sections atmosphere, planet, sky, absorber, lights, fog.
+#include <algorithm>
+
 #include "common/api.hpp"
 #include "common/scene.hpp"
 
 namespace host {
 namespace {
 
-WlkPlanet parsePlanet(const JsonNode& node) {
+WlkAtmospherePreset presetOf(uint32_t which) {
+  auto preset = make<WlkAtmospherePreset>();
+  check(wlkGetAtmospherePreset(which, &preset), "wlkGetAtmospherePreset");
+  return preset;
+}
+
+void storeVector(const Vec3& v, float (&out)[3]) {
+  out[0] = static_cast<float>(v.x);
+  out[1] = static_cast<float>(v.y);
+  out[2] = static_cast<float>(v.z);
+}
+
+// A vector of any length but 0.
+Vec3 parseDirection(const JsonNode& node) {
+  const Vec3 direction = node.vec3();
+  if (!(length(direction) > 0.0)) {
+    node.fail("expected a vector that is not 0");
+  }
+  return normalize(direction);
+}
+
+// Each section starts from `initial`: the library's defaults or those of an atmosphere.
+WlkPlanet parsePlanet(const JsonNode& node, const WlkPlanet& initial) {
   node.onlyKeys({"seaLevelPoint", "up", "radius", "groundAlbedo"});
-  auto planet = make<WlkPlanet>();
+  WlkPlanet planet = initial;
   Vec3 point{planet.seaLevelPoint[0], planet.seaLevelPoint[1], planet.seaLevelPoint[2]};
   node.optional("seaLevelPoint", point);
   planet.seaLevelPoint[0] = point.x;
   planet.seaLevelPoint[1] = point.y;
   planet.seaLevelPoint[2] = point.z;
   if (node.has("up")) {
-    const Vec3 up = node.at("up").vec3();
-    if (!(length(up) > 0.0)) {
-      node.at("up").fail("expected a vector that is not 0");
-    }
-    const Vec3 unit = normalize(up);
-    planet.up[0] = static_cast<float>(unit.x);
-    planet.up[1] = static_cast<float>(unit.y);
-    planet.up[2] = static_cast<float>(unit.z);
+    storeVector(parseDirection(node.at("up")), planet.up);
   }
   node.optional("radius", planet.radius);
   node.optional("groundAlbedo", planet.groundAlbedo);
   return planet;
 }
 
-WlkSky parseSky(const JsonNode& node) {
+WlkSky parseSky(const JsonNode& node, const WlkSky& initial) {
   node.onlyKeys({"rayleighScattering", "scaleHeight"});
-  auto sky = make<WlkSky>();
+  WlkSky sky = initial;
   node.optional("rayleighScattering", sky.rayleighScattering);
   node.optional("scaleHeight", sky.scaleHeight);
   return sky;
 }
 
-WlkLight parseLight(const JsonNode& node) {
-  node.onlyKeys({"direction", "elevation_deg", "azimuth_deg", "angularDiameter_deg", "irradiance"});
-  auto light = make<WlkLight>();
-  Vec3 direction{0.0, 1.0, 0.0};
+WlkAbsorber parseAbsorber(const JsonNode& node, const WlkAbsorber& initial) {
+  node.onlyKeys({"extinction", "peakAltitude", "halfWidth"});
+  WlkAbsorber absorber = initial;
+  node.optional("extinction", absorber.extinction);
+  node.optional("peakAltitude", absorber.peakAltitude);
+  node.optional("halfWidth", absorber.halfWidth);
+  return absorber;
+}
+
+Vec3 parseLightDirection(const JsonNode& node) {
   if (node.has("direction")) {
     if (node.has("elevation_deg") || node.has("azimuth_deg")) {
       node.fail("expected direction, or elevation_deg and azimuth_deg, not both");
     }
-    direction = node.at("direction").vec3();
-    if (!(length(direction) > 0.0)) {
-      node.at("direction").fail("expected a vector that is not 0");
-    }
-    direction = normalize(direction);
-  } else if (node.has("elevation_deg") || node.has("azimuth_deg")) {
-    const double azimuth = node.has("azimuth_deg") ? node.at("azimuth_deg").number() : 0.0;
-    direction = directionFromAngles(node.at("elevation_deg").number(-90.0, 90.0), azimuth);
+    return parseDirection(node.at("direction"));
   }
-  light.direction[0] = static_cast<float>(direction.x);
-  light.direction[1] = static_cast<float>(direction.y);
-  light.direction[2] = static_cast<float>(direction.z);
+  if (node.has("elevation_deg") || node.has("azimuth_deg")) {
+    const double azimuth = node.has("azimuth_deg") ? node.at("azimuth_deg").number() : 0.0;
+    return directionFromAngles(node.at("elevation_deg").number(-90.0, 90.0), azimuth);
+  }
+  return {0.0, 1.0, 0.0};
+}
+
+// The Moon, lit by the first light.
+WlkLight parseMoon(const JsonNode& node, const Scene& scene, const float (&direction)[3]) {
+  if (scene.lights.empty()) {
+    node.at("moon").fail("expected a light before the moon: what lights it");
+  }
+  const WlkLight& sun = scene.lights.front();
+  auto moon = make<WlkLight>();
+  check(wlkInitMoon(sun.direction, direction, sun.irradiance, &moon), node.file(), node.path());
+  return moon;
+}
+
+WlkLight parseLight(const JsonNode& node, const Scene& scene, const WlkLight& sun) {
+  node.onlyKeys({"direction", "elevation_deg", "azimuth_deg", "angularDiameter_deg", "irradiance",
+                 "limbDarkening", "litFrom", "moon"});
+  float direction[3];
+  storeVector(parseLightDirection(node), direction);
+  const bool moon = node.has("moon") && node.at("moon").boolean();
+  WlkLight light = moon ? parseMoon(node, scene, direction) : sun;
+  std::copy_n(direction, 3, light.direction);
   if (node.has("angularDiameter_deg")) {
     light.angularDiameter =
         static_cast<float>(node.at("angularDiameter_deg").number() * RADIANS_PER_DEGREE);
   }
   node.optional("irradiance", light.irradiance);
+  if (node.has("limbDarkening") && node.at("limbDarkening").isText()) {
+    static_cast<void>(node.at("limbDarkening").word({"sun"}));
+    std::copy_n(presetOf(WLK_ATMOSPHERE_EARTH_CLEAR).sun.limbDarkening, 3, light.limbDarkening);
+  } else {
+    node.optional("limbDarkening", light.limbDarkening);
+  }
+  if (node.has("litFrom")) {
+    storeVector(parseDirection(node.at("litFrom")), light.litFrom);
+  }
   return light;
 }
 
-WlkFog parseFog(const JsonNode& node) {
-  node.onlyKeys({"model", "dropletDiameter_um", "extinction", "baseAltitude", "scaleHeight",
-                 "singleScatteringAlbedo"});
-  auto fog = make<WlkFog>();
+const MediumDesc& mediumNamed(const JsonNode& node, const Scene& scene) {
+  const std::string name = node.text();
+  const auto found = std::find_if(scene.media.begin(), scene.media.end(),
+                                  [&](const MediumDesc& medium) { return medium.name == name; });
+  if (found == scene.media.end()) {
+    node.fail("expected the name of one of media");
+  }
+  return *found;
+}
+
+void parseFog(const JsonNode& node, const WlkFog& initial, Scene& scene) {
+  node.onlyKeys({"model", "dropletDiameter_um", "medium", "extinction", "baseAltitude",
+                 "scaleHeight", "singleScatteringAlbedo"});
+  WlkFog fog = initial;
+  const bool droplets = node.has("model") || node.has("dropletDiameter_um");
+  if (node.has("medium")) {
+    if (droplets) {
+      node.fail("expected medium, or model and dropletDiameter_um, not both");
+    }
+    scene.fogMedium = mediumNamed(node.at("medium"), scene);
+  } else if (droplets) {
+    scene.fogMedium.reset();
+  }
   if (node.has("model")) {
     fog.phaseModel = parsePhaseModel(node.at("model"));
   }
@@ -77,23 +144,43 @@ WlkFog parseFog(const JsonNode& node) {
   node.optional("baseAltitude", fog.baseAltitude);
   node.optional("scaleHeight", fog.scaleHeight);
   node.optional("singleScatteringAlbedo", fog.singleScatteringAlbedo);
-  return fog;
+  scene.fog = fog;
 }
 
 }  // namespace
 
 void parseWorld(const JsonNode& root, Scene& scene) {
-  scene.planet = root.has("planet") ? parsePlanet(root.at("planet")) : make<WlkPlanet>();
+  auto initial = make<WlkAtmospherePreset>();
+  if (root.has("atmosphere")) {
+    initial = presetOf(
+        root.at("atmosphere").word({"earth-clear", "earth-hazy", "earth-polluted", "mars"}));
+    scene.sky = initial.sky;
+    scene.absorber = initial.absorber;
+    scene.fog = initial.haze;
+    scene.fogMedium = MediumDesc{"of the atmosphere", initial.hazeMedium, {}, {}};
+  }
+  scene.planet =
+      root.has("planet") ? parsePlanet(root.at("planet"), initial.planet) : initial.planet;
   if (root.has("sky")) {
-    scene.sky = parseSky(root.at("sky"));
+    scene.sky = parseSky(root.at("sky"), initial.sky);
+  } else if (root.isNull("sky")) {
+    scene.sky.reset();
+  }
+  if (root.has("absorber")) {
+    scene.absorber = parseAbsorber(root.at("absorber"), initial.absorber);
+  } else if (root.isNull("absorber")) {
+    scene.absorber.reset();
   }
   if (root.has("lights")) {
     for (const JsonNode& node : root.at("lights").elements()) {
-      scene.lights.push_back(parseLight(node));
+      scene.lights.push_back(parseLight(node, scene, initial.sun));
     }
   }
   if (root.has("fog")) {
-    scene.fog = parseFog(root.at("fog"));
+    parseFog(root.at("fog"), initial.haze, scene);
+  } else if (root.isNull("fog")) {
+    scene.fog.reset();
+    scene.fogMedium.reset();
   }
 }
 

@@ -1,4 +1,15 @@
 // SPDX-License-Identifier: MIT
+const int MAX_LIGHTS = 2;
+
+// A light that reaches the air.
+struct LightUniforms {
+  vec4 direction;   // to the light, angular radius
+  vec4 irradiance;  // RGB outside the atmosphere; w: cosine of light and local up
+  vec4 disk;        // mean RGB radiance of the disk; w: 1 - cos(angular radius)
+  vec4 limb;        // RGB exponents of its limb darkening
+  vec4 litFrom;     // direction to what lights it, phaseIntegral(); 0 if it shines itself
+};
+
 // One view's constants, as 16-byte rows: std140, std430 and C++ agree. Positions are relative to
 // the eye, in m, in world orientation.
 struct FrameUniforms {
@@ -6,19 +17,22 @@ struct FrameUniforms {
   vec4 viewport;        // width, height, 1/width, 1/height
   vec4 output_;         // sky depth value, pre-exposure, largest of the target, 1 with an input
   vec4 eye;             // local up at the eye, altitude of the eye
-  vec4 light;           // direction to the light, angular radius
-  vec4 lightIrradiance; // RGB outside the atmosphere; w: cosine of light and local up
-  vec4 lightDisk;       // RGB radiance of the disk; w: 1 - cos(angular radius)
+  LightUniforms lights[MAX_LIGHTS];  // volumes are lit by the first
   vec4 air;             // RGB scattering at sea level, scale height
   vec4 fog;             // extinction at base, base altitude, scale height, planet radius
-  vec4 fogAlbedo;       // RGB
+  vec4 fogAlbedo;       // RGB; w: 1 / number of lights that the sky table has room for
+  vec4 absorber;        // RGB absorption at the peak, altitude of the peak
   vec4 ground;          // RGB albedo
+  vec4 colorRed;        // rows of the matrix from wavelengths to the target's colours
+  vec4 colorGreen;
+  vec4 colorBlue;
   vec4 volumeRect;      // x0, y0, x1, y1: pixels any volume may cover
   // Light scattered more than once, see src/tables/sky_field.hpp.
   // Highest altitude of the moments, share of their nodes in the fog, 0 to leave them out, 1 if the
   // table holds all light.
   vec4 skyLight;
-  // Cosines of the horizon and of the table's upper end, scale height of the moments' fog.
+  // Cosines of the horizon and of the table's upper end, scale height of the moments' fog, half
+  // width of the absorber.
   vec4 skyView;
   vec4 eyeFog;          // fog without the eye's part of its peak: albedo RGB, extinction
   vec4 fogFirst;        // 3 times its first moment, RGB; scale of the phase function

@@ -6,3 +6,7 @@
 const int SKY_AZIMUTHS = 16;
 const int SKY_ZENITHS = 40;
 const int SKY_SHARES = 6;
+// The image of the moments: their blocks of altitudes one below the other, then the ground's row.
+const int MOMENT_SUNS = 48;
+const int MOMENT_ALTITUDES = 32;
+const int MOMENT_ROWS = 6 * MOMENT_ALTITUDES + 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every model file, once, in dependency order. GLSL passes define `real` as float, declare the
-// constants AIR_ENABLED and FOG_ENABLED, and include this; C++ includes it through
-// src/model/model.hpp in float and in double.
+// constants AIR_ENABLED, FOG_ENABLED and ABSORBER_ENABLED, and include this; C++ includes it
+// through src/model/model.hpp in float and in double.
 #include "numeric.glsl"
 #include "geometry.glsl"
 #include "phase/rayleigh.glsl"
@@ -9,7 +9,10 @@
 #include "phase/sample.glsl"
 #include "phase/curve.glsl"
 #include "sky/segment.glsl"
+#include "sky/absorber.glsl"
+#include "sky/air.glsl"
 #include "sky/riley2004.glsl"
+#include "sky/disk.glsl"
 #include "volume/slices.glsl"
 #include "volume/forward_scattering.glsl"
 #include "composite.glsl"

@@ -2,8 +2,12 @@
 // Head of every pass: the model text in float, and what is compiled in. A false constant removes
 // its code when the pipeline is made; lavapipe would otherwise run every branch.
 #define real float
-layout(constant_id = 0) const bool AIR_ENABLED = true;
+// 0: none; 2: with a gas that absorbs.
+layout(constant_id = 0) const uint AIR_KIND = 2u;
 layout(constant_id = 1) const bool FOG_ENABLED = true;
-layout(constant_id = 2) const bool LIGHT_ENABLED = true;
+layout(constant_id = 2) const uint LIGHT_COUNT = 1u;
+const bool AIR_ENABLED = AIR_KIND > 0u;
+const bool ABSORBER_ENABLED = AIR_KIND > 1u;
+const bool LIGHT_ENABLED = LIGHT_COUNT > 0u;
 #include "../model/model.glsl"
 #include "../interface/frame.glsl"

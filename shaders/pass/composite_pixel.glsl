@@ -3,7 +3,8 @@
 // the eye and the engine's surface. [R04] 4.1, 4.2.4.
 layout(constant_id = 3) const bool VOLUMES_ENABLED = true;
 layout(constant_id = 4) const bool DEPTH_ENABLED = true;
-layout(constant_id = 5) const bool DISK_ENABLED = true;
+// 0: none; 1: uniform; 2: darker towards the limb, or moons.
+layout(constant_id = 5) const uint DISK_KIND = 2u;
 layout(constant_id = 6) const bool GROUND_ENABLED = true;
 layout(constant_id = 9) const bool MULTIPLE_ENABLED = true;
 // From space the table's nodes lie too far apart at the edge of night: every pixel gathers its own
@@ -21,6 +22,7 @@ layout(set = 0, binding = 8) uniform sampler3D skyTable;
 layout(set = 0, binding = 9) uniform sampler3D skyPeak;
 layout(set = 0, binding = 10) uniform sampler2D skyMoments;
 
+#include "../interface/sky_table.glsl"
 #include "ray.glsl"
 #include "fog_curve.glsl"
 #include "air_column.glsl"
@@ -32,38 +34,33 @@ struct PixelLayer {
   vec3 transmittance;
 };
 
-// 1 inside the light's disk, 0 outside, smooth over the last 4 % of the radius.
-// y = 1 - cos of the angle to the disk's centre, edge that of its rim: y/edge ~ (angle/radius)^2.
-float diskCoverage(float y, float edge) {
-  float x = clamp((1.0f - y / edge) * 12.5f, 0.0f, 1.0f);
-  return x * x * (3.0f - 2.0f * x);
-}
-
 const int SPACE_STEPS = 24;
 
-// Radiance of light scattered more than once, per unit irradiance, along a ray with the optical
-// depth `depth` that air and fog have over `reach`.
-vec3 multipleLight(Air air, AirRay ray, float reach, vec3 depth, vec3 droplets) {
+// Radiance of light scattered more than once, per unit irradiance, along a ray with the columns
+// `columns` over `reach`.
+vec3 multipleLight(Air air, AirRay ray, int which, float reach, vec3 columns, vec3 droplets) {
   vec3 light = vec3(0.0f);
   if (SPACE_ENABLED) {
     AirPath path = clipToAir(air, ray, reach);
     SkyMarch march = skyMarchBegin(air, path);
+    float lightRadius = frame.lights[which].direction.w;
     for (int i = 1; i <= SPACE_STEPS; ++i) {
-      march = skyMarchTo(air, path, march, skyStop(path, float(i) / float(SPACE_STEPS)));
+      float t = skyStop(path, float(i) / float(SPACE_STEPS));
+      march = skyMarchTo(air, path, march, t, lightRadius);
     }
     light = march.light;
     if (FOG_ENABLED) {
       light += min(droplets * frame.fogFirst.w, frame.fogBound.xyz) * march.peak;
     }
   } else {
-    vec3 opacity = opacityOf(depth);
-    light = skySourceAt(skyTableRay(ray), opacity, droplets) * opacity;
+    vec3 opacity = opacityOf(scatteringDepth(air, columns));
+    light = skySourceAt(skyTableRay(ray, which), opacity, droplets) * opacity;
   }
   return light;
 }
 
-// Radiance per unit irradiance and transmittance of clear air over `reach`.
-PixelLayer clearAir(Air air, AirRay ray, float reach, float ground) {
+// Radiance and transmittance of clear air over `reach`.
+PixelLayer clearAir(Air air, AirRay ray, vec3 direction, float reach, float ground) {
   AirPath path = clipToAir(air, ray, skyTableReach(ground));
   float own = clipToAir(air, ray, reach).reach;
   AirPoint first = airPoint(air, path, 0.0f);
@@ -71,12 +68,85 @@ PixelLayer clearAir(Air air, AirRay ray, float reach, float ground) {
   AirPoint last = airPoint(air, path, path.reach);
   AirPoint there = airPoint(air, path, own);
   float total = skyTableOpacity(air, path, first, lowest, last);
-  vec3 depth = depthOfColumns(air, columnsTo(air, path, first, lowest, there));
-  float share = oneMinusExp(depth.y) / max(total, 1.0e-30f);
+  vec3 columns = columnsTo(air, path, first, lowest, there);
+  vec3 opacity = opacityOf(scatteringDepth(air, columns));
+  float share = opacity.y / max(total, 1.0e-30f);
   PixelLayer layer;
-  layer.radiance = skyTableSource(skyTableDirection(ray), share, ray.viewSun) * opacityOf(depth);
-  layer.transmittance = exp(-depth);
+  layer.radiance = vec3(0.0f);
+  for (int i = 0; i < int(LIGHT_COUNT); ++i) {
+    LightUniforms light = frame.lights[i];
+    AirRay lit = airRayOf(frame, light, direction);
+    vec3 source = skyTableSource(skyTableDirection(lit, i), share, lit.viewSun);
+    layer.radiance += source * light.irradiance.xyz;
+  }
+  layer.radiance *= opacity;
+  layer.transmittance = exp(-depthOfColumns(air, columns));
   return layer;
+}
+
+// The same with fog, in twilight or from space: every pixel integrates its own first order.
+PixelLayer layeredAir(Air air, vec3 direction, float reach, bool ends) {
+  PixelLayer layer;
+  layer.radiance = vec3(0.0f);
+  layer.transmittance = vec3(1.0f);
+  for (int i = 0; i < max(int(LIGHT_COUNT), 1); ++i) {
+    LightUniforms light = frame.lights[i];
+    AirRay ray = airRayOf(frame, light, direction);
+    float airPhase = rayleighPhase(1.0f - ray.viewSun);
+    vec3 droplets = FOG_ENABLED ? fogPhaseOf(direction, light.direction.xyz) : vec3(0.0f);
+    AirResult result = airAlongRay(air, ray, reach, airPhase, droplets, light.direction.w);
+    layer.transmittance = exp(-result.opticalDepth);
+    if (FOG_ENABLED && MULTIPLE_ENABLED && ends) {
+      // Surfaces fill more of the view than the few degrees by which droplets turn light within
+      // their forward peak: what one pixel loses to that, its neighbours give.
+      Air eyeAir = air;
+      eyeAir.fogExtinction = frame.eyeFog.w;
+      layer.transmittance = exp(-depthOfColumns(eyeAir, result.columns));
+    }
+    if (LIGHT_ENABLED) {
+      vec3 sum = result.radiance;
+      if (MULTIPLE_ENABLED) {
+        sum += multipleLight(air, ray, i, reach, result.columns, droplets);
+      }
+      layer.radiance += sum * light.irradiance.xyz;
+    }
+  }
+  return layer;
+}
+
+// Radiance of the bare planet where a ray meets it.
+vec3 groundRadiance(Air air, vec3 direction, float ground) {
+  vec3 sum = vec3(0.0f);
+  for (int i = 0; i < int(LIGHT_COUNT); ++i) {
+    LightUniforms light = frame.lights[i];
+    AirRay foot = advanceRay(air, airRayOf(frame, light, direction), ground);
+    vec3 sun = exp(-lightOpticalDepth(air, 0.0f, foot.sunMu));
+    float visible = lightVisibility(air, 0.0f, foot.sunMu, light.direction.w);
+    vec3 irradiance = sun * (max(foot.sunMu, 0.0f) * visible);
+    if (MULTIPLE_ENABLED) {
+      irradiance += groundLight(foot.sunMu);
+    }
+    sum += irradiance * light.irradiance.xyz;
+  }
+  return frame.ground.xyz * 0.31830989f * sum;
+}
+
+// Radiance of the lights' disks in front of the air.
+vec3 diskRadiance(vec3 direction) {
+  vec3 sum = vec3(0.0f);
+  for (int i = 0; i < int(LIGHT_COUNT); ++i) {
+    LightUniforms light = frame.lights[i];
+    float y = oneMinusCosine(direction, light.direction.xyz);
+    vec3 shape = vec3(diskCoverage(y, light.disk.w));
+    if (DISK_KIND > 1u) {
+      shape = light.litFrom.w > 0.0f
+                  ? vec3(litDisk(direction, light.direction.xyz, light.litFrom.xyz,
+                                 light.litFrom.w, y, light.disk.w))
+                  : limbDarkenedDisk(y, light.disk.w, light.limb.xyz);
+    }
+    sum += light.disk.xyz * shape;
+  }
+  return sum;
 }
 
 PixelLayer pixelLayer(uvec2 pixel) {
@@ -87,58 +157,28 @@ PixelLayer pixelLayer(uvec2 pixel) {
     surface = surfaceDistance(frame, vec2(pixel), d);
   }
   bool open = surface >= INFINITE_DISTANCE;
-  vec3 radiance = vec3(0.0f);
-  vec3 transmittance = vec3(1.0f);
   Air air = airOf(frame);
-  AirRay ray = airRayOf(frame, direction);
+  AirRay ray = airRayOf(frame, frame.lights[0], direction);
   float ground = groundDistance(ray.altitude, ray.viewMu, air.planetRadius);
   float reach = open && ground >= 0.0f ? ground : surface;
-
+  PixelLayer layer;
+  layer.radiance = vec3(0.0f);
+  layer.transmittance = vec3(1.0f);
   if (ALL_LIGHT) {
-    PixelLayer clear = clearAir(air, ray, reach, ground);
-    radiance = clear.radiance * frame.lightIrradiance.xyz;
-    transmittance = clear.transmittance;
+    layer = clearAir(air, ray, direction, reach, ground);
   } else if (AIR_ENABLED || FOG_ENABLED) {
-    float airPhase = rayleighPhase(1.0f - ray.viewSun);
-    vec3 droplets = FOG_ENABLED ? fogPhaseOf(frame, direction) : vec3(0.0f);
-    AirResult result = airAlongRay(air, ray, reach, airPhase, droplets, frame.light.w);
-    transmittance = exp(-result.opticalDepth);
-    if (FOG_ENABLED && MULTIPLE_ENABLED && (!open || ground >= 0.0f)) {
-      // Surfaces fill more of the view than the few degrees by which droplets turn light within
-      // their forward peak: what one pixel loses to that, its neighbours give.
-      Air eyeAir = air;
-      eyeAir.fogExtinction = frame.eyeFog.w;
-      transmittance = exp(-depthOfColumns(eyeAir, result.columns));
-    }
-    if (LIGHT_ENABLED) {
-      vec3 light = result.radiance;
-      if (MULTIPLE_ENABLED) {
-        light += multipleLight(air, ray, reach, result.opticalDepth, droplets);
-      }
-      radiance = light * frame.lightIrradiance.xyz;
-    }
+    layer = layeredAir(air, direction, reach, !open || ground >= 0.0f);
   }
   if (open && ground >= 0.0f) {
     // The planet hides what lies behind it, also where its own light is not drawn.
-    vec3 behind = vec3(0.0f);
-    if (GROUND_ENABLED && LIGHT_ENABLED) {
-      AirRay foot = advanceRay(air, ray, ground);
-      foot.altitude = 0.0f;
-      vec3 sun = exp(-lightOpticalDepth(air, 0.0f, foot.sunMu));
-      float visible = lightVisibility(air, 0.0f, foot.sunMu, frame.light.w);
-      vec3 light = sun * (max(foot.sunMu, 0.0f) * visible);
-      if (MULTIPLE_ENABLED) {
-        light += groundLight(foot.sunMu);
-      }
-      behind = frame.ground.xyz * 0.31830989f * light * frame.lightIrradiance.xyz;
-    }
     if (GROUND_ENABLED) {
-      radiance += transmittance * behind;
-      transmittance = vec3(0.0f);
+      if (LIGHT_ENABLED) {
+        layer.radiance += layer.transmittance * groundRadiance(air, direction, ground);
+      }
+      layer.transmittance = vec3(0.0f);
     }
-  } else if (open && DISK_ENABLED && LIGHT_ENABLED) {
-    float y = oneMinusCosine(direction, frame.light.xyz);
-    radiance += transmittance * frame.lightDisk.xyz * diskCoverage(y, frame.lightDisk.w);
+  } else if (open && DISK_KIND > 0u && LIGHT_ENABLED) {
+    layer.radiance += layer.transmittance * diskRadiance(direction);
   }
   if (VOLUMES_ENABLED) {
     vec2 p = vec2(pixel);
@@ -146,13 +186,15 @@ PixelLayer pixelLayer(uvec2 pixel) {
                    p.x < frame.volumeRect.z && p.y < frame.volumeRect.w;
     if (covered) {
       vec4 state = frameState[pixel.y * uint(frame.viewport.x) + pixel.x];
-      radiance = compositeOver(state.xyz, state.w, radiance);
-      transmittance *= state.w;
+      layer.radiance = compositeOver(state.xyz, state.w, layer.radiance);
+      layer.transmittance *= state.w;
     }
   }
-  PixelLayer layer;
-  layer.radiance = radiance;
-  layer.transmittance = transmittance;
+  vec3 color = vec3(dot(frame.colorRed.xyz, layer.radiance),
+                    dot(frame.colorGreen.xyz, layer.radiance),
+                    dot(frame.colorBlue.xyz, layer.radiance));
+  // A comparison, not max: it lets NaN through to the counter.
+  layer.radiance = mix(color, vec3(0.0f), lessThan(color, vec3(0.0f)));
   return layer;
 }
 

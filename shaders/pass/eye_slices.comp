@@ -33,6 +33,7 @@ layout(set = 0, binding = 13) uniform sampler3D skyTable;
 layout(set = 0, binding = 14) uniform sampler3D skyPeak;
 layout(push_constant) uniform Push { SliceConstants slice; };
 
+#include "../interface/sky_table.glsl"
 #include "ray.glsl"
 #include "fog_curve.glsl"
 #include "fields.glsl"
@@ -109,7 +110,7 @@ void main() {
   }
 
   if (last > t && !(rate > 0.0f && state.w < RAY_ENDS)) {
-    float angle = phaseCoordinate(oneMinusCosine(direction, frame.light.xyz));
+    float angle = phaseCoordinate(oneMinusCosine(direction, frame.lights[0].direction.xyz));
     vec3 single[4];
     for (int i = 0; i < 4; ++i) {
       single[i] = vec3(0.0f);

@@ -29,15 +29,18 @@ Air airOf(FrameUniforms frame) {
   air.fogBaseAltitude = frame.fog.y;
   air.fogScaleHeight = frame.fog.z;
   air.fogAlbedo = frame.fogAlbedo.xyz;
+  air.absorption = frame.absorber.xyz;
+  air.absorberPeak = frame.absorber.w;
+  air.absorberWidth = frame.skyView.w;
   return air;
 }
 
-AirRay airRayOf(FrameUniforms frame, vec3 direction) {
+AirRay airRayOf(FrameUniforms frame, LightUniforms light, vec3 direction) {
   AirRay ray;
   ray.altitude = frame.eye.w;
   ray.viewMu = dot(direction, frame.eye.xyz);
-  ray.sunMu = frame.lightIrradiance.w;
-  ray.viewSun = 1.0f - oneMinusCosine(direction, frame.light.xyz);
+  ray.sunMu = light.irradiance.w;
+  ray.viewSun = 1.0f - oneMinusCosine(direction, light.direction.xyz);
   return ray;
 }
 

@@ -2,21 +2,49 @@
 // Light in air and fog that was scattered or reflected before it reached a ray, per unit irradiance
 // of the light (1/sr): the moments of src/tables/sky_field.hpp gathered along the ray. What differs
 // between this text and SkyField::higherOrdersAlong is held by tests/image/sky_light_test.cpp.
-const int MOMENT_SUNS = 48;
-const int MOMENT_ALTITUDES = 32;
-const int MOMENT_COUNT = 6;
-const float MOMENT_ROWS = 193.0f;  // of the image: 6 blocks of altitudes, then the ground's row
 const float ISOTROPIC_PHASE = 0.0795774715f;
 
-float sunCoordinate(float mu) {
-  float x = 0.5f + 0.5f * sign(mu) * sqrt(abs(mu));
-  return (x * float(MOMENT_SUNS - 1) + 0.5f) / float(MOMENT_SUNS);
+// A sun among four nodes in a row, as sunNodes() of src/tables/sky_table.hpp: cubic, at the texels'
+// centres, as filters of 8 bits would show in twilight.
+struct SunNodes {
+  float first;  // coordinate of the first texel's centre
+  vec4 weights;
+};
+
+const float SUN_BEND = 0.25f;
+SunNodes sunNodes(float mu) {
+  float size = abs(mu);
+  float from = 0.5f * (1.0f + SUN_BEND) * mu / (SUN_BEND + size);
+  float x = (0.5f + from) * float(MOMENT_SUNS - 1);
+  float index = clamp(floor(x), 0.0f, float(MOMENT_SUNS - 2));
+  float first = clamp(index, 1.0f, float(MOMENT_SUNS - 3)) - 1.0f;
+  float t = clamp(x - index, 0.0f, 1.0f);
+  float u = 1.0f - t;
+  SunNodes nodes;
+  nodes.first = (first + 0.5f) / float(MOMENT_SUNS);
+  nodes.weights = vec4(-0.5f * t * u * u, u * (1.0f + t - 1.5f * t * t),
+                       t * (1.0f + u - 1.5f * u * u), -0.5f * u * t * t);
+  if (index < first + 1.0f) {
+    nodes.weights = vec4(0.5f * u * (2.0f - t), t * (2.0f - t), -0.5f * t * u, 0.0f);
+  } else if (index > first + 1.0f) {
+    nodes.weights = vec4(0.0f, -0.5f * t * u, u * (1.0f + t), 0.5f * t * (1.0f + t));
+  }
+  return nodes;
+}
+
+// A row of the table for one sun, RGB.
+vec3 rowAt(float v, SunNodes sun) {
+  const float NEXT = 1.0f / float(MOMENT_SUNS);
+  return sun.weights.x * textureLod(skyMoments, vec2(sun.first, v), 0.0f).xyz +
+         sun.weights.y * textureLod(skyMoments, vec2(sun.first + NEXT, v), 0.0f).xyz +
+         sun.weights.z * textureLod(skyMoments, vec2(sun.first + 2.0f * NEXT, v), 0.0f).xyz +
+         sun.weights.w * textureLod(skyMoments, vec2(sun.first + 3.0f * NEXT, v), 0.0f).xyz;
 }
 
 // Diffuse light on horizontal ground at sea level, RGB.
 vec3 groundLight(float sunMu) {
-  vec2 uv = vec2(sunCoordinate(sunMu), (MOMENT_ROWS - 0.5f) / MOMENT_ROWS);
-  return frame.skyLight.z * textureLod(skyMoments, uv, 0.0f).xyz;
+  vec3 light = rowAt(1.0f - 0.5f / float(MOMENT_ROWS), sunNodes(sunMu));
+  return frame.skyLight.z * max(light, vec3(0.0f));
 }
 
 // Integrals over all directions w of L, of L (v w) and of L (v w)^2.
@@ -26,9 +54,8 @@ struct SkyMoments {
   vec3 square;
 };
 
-vec3 momentAt(vec2 uv, int moment) {
-  uv.y += float(moment * MOMENT_ALTITUDES) / MOMENT_ROWS;
-  return textureLod(skyMoments, uv, 0.0f).xyz;
+vec3 momentAt(float v, SunNodes sun, int moment) {
+  return rowAt(v + float(moment * MOMENT_ALTITUDES) / float(MOMENT_ROWS), sun);
 }
 
 // v: the view in the frame of the moments, y up, x towards the light.
@@ -39,18 +66,18 @@ SkyMoments skyMomentsAt(float altitude, float sunMu, vec3 v) {
   float fogHeight = frame.skyView.z;
   float high = (1.0f - frame.skyLight.y) * sqrt(h / top) +
                frame.skyLight.y * oneMinusExp(h / fogHeight) / oneMinusExp(top / fogHeight);
-  vec2 uv = vec2(sunCoordinate(sunMu),
-                 (high * float(MOMENT_ALTITUDES - 1) + 0.5f) / MOMENT_ROWS);
-  vec3 xx = momentAt(uv, 0);
-  vec3 yy = momentAt(uv, 1);
-  vec3 zz = momentAt(uv, 2);
-  vec3 xy = momentAt(uv, 3);
+  SunNodes sun = sunNodes(sunMu);
+  float row = (high * float(MOMENT_ALTITUDES - 1) + 0.5f) / float(MOMENT_ROWS);
+  vec3 xx = momentAt(row, sun, 0);
+  vec3 yy = momentAt(row, sun, 1);
+  vec3 zz = momentAt(row, sun, 2);
+  vec3 xy = momentAt(row, sun, 3);
   SkyMoments m;
   m.mean = xx + yy + zz;
   m.square = v.x * v.x * xx + v.y * v.y * yy + v.z * v.z * zz + 2.0f * v.x * v.y * xy;
   m.along = vec3(0.0f);
   if (FOG_ENABLED) {
-    m.along = v.x * momentAt(uv, 4) + v.y * momentAt(uv, 5);
+    m.along = v.x * momentAt(row, sun, 4) + v.y * momentAt(row, sun, 5);
   }
   m.mean *= frame.skyLight.z;
   m.square *= frame.skyLight.z;
@@ -61,7 +88,7 @@ SkyMoments skyMomentsAt(float altitude, float sunMu, vec3 v) {
 // A ray as far as it was gathered.
 struct SkyMarch {
   AirPoint at;
-  vec2 columns;
+  vec3 columns;
   vec3 light;
   // First order of what fog turned within its forward peak only, per unit of its phase function.
   vec3 peak;
@@ -70,7 +97,7 @@ struct SkyMarch {
 SkyMarch skyMarchBegin(Air air, AirPath path) {
   SkyMarch march;
   march.at = airPoint(air, path, 0.0f);
-  march.columns = vec2(0.0f);
+  march.columns = vec3(0.0f);
   march.light = vec3(0.0f);
   march.peak = vec3(0.0f);
   return march;
@@ -82,11 +109,11 @@ vec3 seenThrough(vec3 before, vec3 own) {
   return safeExp3(-before) * vec3(phi1(own.x), phi1(own.y), phi1(own.z));
 }
 
-// On to distance t.
-SkyMarch skyMarchTo(Air air, AirPath path, SkyMarch march, float t) {
+// On to distance t. lightRadius: angular radius of the light.
+SkyMarch skyMarchTo(Air air, AirPath path, SkyMarch march, float t, float lightRadius) {
   AirPoint next = airPoint(air, path, t);
   AirSpan span = airSpan(air, path, march.at, next);
-  vec2 own = vec2(span.air.column, span.fog.column);
+  vec3 own = columnsOf(span);
   // Air as the eye sees it: part of the fog's peak counts as unscattered.
   Air eyeAir = air;
   eyeAir.fogExtinction = frame.eyeFog.w;
@@ -111,7 +138,8 @@ SkyMarch skyMarchTo(Air air, AirPath path, SkyMarch march, float t) {
   SkyMoments m = skyMomentsAt(altitude, sunMu, v);
   vec3 airPart = air.airScattering * own.x;
   vec3 fogPart = frame.eyeFog.xyz * (frame.eyeFog.w * own.y);
-  march.light += seen * airPart * RAYLEIGH_NORM * (m.mean + m.square);
+  // Cubics may run below zero in the dark.
+  march.light += seen * airPart * RAYLEIGH_NORM * max(m.mean + m.square, vec3(0.0f));
   if (FOG_ENABLED) {
     vec3 source = m.mean + frame.fogFirst.xyz * m.along +
                   frame.fogSecond.xyz * (3.0f * m.square - m.mean);
@@ -120,7 +148,7 @@ SkyMarch skyMarchTo(Air air, AirPath path, SkyMarch march, float t) {
     vec3 seenLess = seenThrough(depthOfColumns(air, march.columns), depthOfColumns(air, own));
     vec3 sun = safeExp3(-lightOpticalDepth(eyeAir, altitude, sunMu));
     vec3 sunLess = safeExp3(-lightOpticalDepth(air, altitude, sunMu));
-    float visible = lightVisibility(air, altitude, sunMu, frame.light.w);
+    float visible = lightVisibility(air, altitude, sunMu, lightRadius);
     vec3 more = max(seen * sun - seenLess * sunLess, vec3(0.0f)) * visible;
     march.light += more * airPart * rayleighPhase(1.0f - path.viewSun);
     march.peak += more * fogPart;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Reads the tables that sky_table.comp wrote: mean source, radiance / (1 - transmittance) per unit
-// irradiance of the light (1/sr), of light scattered at least twice. It varies slowly along a ray,
-// so the pixel's own exact opacity carries the detail.
-#include "../interface/sky_table.glsl"
+// Reads the tables that sky_table.comp wrote: mean source, radiance / opacity of what scatters, per
+// unit irradiance of the light (1/sr), of light scattered at least twice. It varies slowly along a
+// ray, so the pixel's own exact opacity carries the detail.
 
-// Table coordinates of a ray's direction. They do not depend on how the camera is turned.
-vec2 skyTableDirection(AirRay ray) {
+// Table coordinates of a ray's direction, for one of the lights side by side. They do not depend on
+// how the camera is turned.
+vec2 skyTableDirection(AirRay ray, int light) {
   float horizon = frame.skyView.x;
   bool below = ray.viewMu < horizon;
   float range = below ? 1.0f + horizon : frame.skyView.y - horizon;
@@ -16,7 +16,9 @@ vec2 skyTableDirection(AirRay ray) {
   vec2 node = vec2((0.5f - 0.5f * azimuth) * float(SKY_AZIMUTHS - 1),
                    rise * float(SKY_ZENITHS / 2 - 1));
   node.y += below ? float(SKY_ZENITHS / 2) : 0.0f;
-  return (node + 0.5f) / vec2(float(SKY_AZIMUTHS), float(SKY_ZENITHS));
+  node.x += float(light * SKY_AZIMUTHS);
+  return (node + 0.5f) / vec2(float(SKY_AZIMUTHS), float(SKY_ZENITHS)) *
+         vec2(frame.fogAlbedo.w, 1.0f);
 }
 
 vec3 skyTableUvw(vec2 direction, float share) {
@@ -36,9 +38,9 @@ struct SkyTableRay {
   float total;
 };
 
-SkyTableRay skyTableRay(AirRay ray) {
+SkyTableRay skyTableRay(AirRay ray, int light) {
   SkyTableRay result;
-  result.direction = skyTableDirection(ray);
+  result.direction = skyTableDirection(ray, light);
   vec4 whole = textureLod(skyTable, skyTableUvw(result.direction, 1.0f), 0.0f);
   result.source = whole.xyz;
   result.total = whole.w;

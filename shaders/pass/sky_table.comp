@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A view's sky table: what sky_light.glsl gathers along rays from the eye, as mean source. One
-// invocation for each direction. Recorded only when eye, light or air have changed.
+// invocation for each light and direction. Recorded only when eye, light or air have changed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
@@ -33,8 +33,8 @@ vec3 opacityOf(vec3 depth) {
 
 // Opacity in green from the ray's origin to t.
 float opacityTo(Air air, AirPath path, AirPoint first, AirPoint lowest, float t) {
-  vec2 columns = columnsTo(air, path, first, lowest, airPoint(air, path, t));
-  return oneMinusExp(depthOfColumns(air, columns).y);
+  vec3 columns = columnsTo(air, path, first, lowest, airPoint(air, path, t));
+  return oneMinusExp(scatteringDepth(air, columns).y);
 }
 
 // What was gathered up to one node of the share of opacity.
@@ -54,12 +54,12 @@ Node between(Node a, Node b, float part) {
   return node;
 }
 
-void store(ivec2 place, int share, Node node, Air air, AirRay ray, float total) {
+void store(ivec2 place, int share, Node node, Air air, AirRay ray, float radius, float total) {
   vec3 source = node.light / max(node.opacity, vec3(1.0e-30f));
   if (ALL_LIGHT) {
-    AirResult first = airAlongRay(air, ray, node.distance_, 1.0f, vec3(0.0f), frame.light.w);
+    AirResult first = airAlongRay(air, ray, node.distance_, 1.0f, vec3(0.0f), radius);
     source = source / rayleighPhase(1.0f - ray.viewSun) +
-             first.radiance / max(opacityOf(first.opticalDepth), vec3(1.0e-30f));
+             first.radiance / max(opacityOf(scatteringDepth(air, first.columns)), vec3(1.0e-30f));
   }
   imageStore(skyTable, ivec3(place, share), vec4(source, total));
   if (FOG_ENABLED) {
@@ -70,9 +70,11 @@ void store(ivec2 place, int share, Node node, Air air, AirRay ray, float total) 
 
 void main() {
   ivec2 place = ivec2(gl_GlobalInvocationID.xy);
-  if (place.x >= SKY_AZIMUTHS || place.y >= SKY_ZENITHS) {
+  int which = place.x / SKY_AZIMUTHS;
+  if (which >= int(LIGHT_COUNT) || place.y >= SKY_ZENITHS) {
     return;
   }
+  LightUniforms light = frame.lights[which];
   Air air = airOf(frame);
   const int HALF = SKY_ZENITHS / 2;
   bool below = place.y >= HALF;
@@ -83,8 +85,8 @@ void main() {
   AirRay ray;
   ray.altitude = frame.eye.w;
   ray.viewMu = clamp(horizon + range * rise * rise, -1.0f, 1.0f);
-  ray.sunMu = frame.lightIrradiance.w;
-  float azimuth = 1.0f - 2.0f * float(place.x) / float(SKY_AZIMUTHS - 1);
+  ray.sunMu = light.irradiance.w;
+  float azimuth = 1.0f - 2.0f * float(place.x % SKY_AZIMUTHS) / float(SKY_AZIMUTHS - 1);
   float sines = sqrt(max((1.0f - ray.viewMu) * (1.0f + ray.viewMu), 0.0f)) *
                 sqrt(max((1.0f - ray.sunMu) * (1.0f + ray.sunMu), 0.0f));
   ray.viewSun = ray.viewMu * ray.sunMu + sines * azimuth;
@@ -119,11 +121,11 @@ void main() {
       }
     }
     x = stop;
-    march = skyMarchTo(air, path, march, skyStop(path, x));
+    march = skyMarchTo(air, path, march, skyStop(path, x), light.direction.w);
     Node next;
     next.light = march.light;
     next.peak = march.peak;
-    next.opacity = opacityOf(depthOfColumns(air, march.columns));
+    next.opacity = opacityOf(scatteringDepth(air, march.columns));
     next.distance_ = march.at.distance;
     for (int k = 0; k < SKY_SHARES; ++k) {
       float target = total * max(float(share) / float(SKY_SHARES - 1), FIRST_SHARE);
@@ -141,6 +143,6 @@ void main() {
     if (k < share) {
       node = nodes[k];
     }
-    store(place, k, node, air, ray, total);
+    store(place, k, node, air, ray, light.direction.w, total);
   }
 }

@@ -8,7 +8,7 @@
 
 namespace welkin {
 
-AirQuery airQueryOf(const AirState& state) {
+AirQuery airQueryOf(const AirState& state, uint32_t index) {
   AirQuery q{};
   q.air.planetRadius = state.planet.radius;
   q.air.airScaleHeight = 8000;
@@ -19,6 +19,13 @@ AirQuery airQueryOf(const AirState& state) {
     }
     q.air.airScaleHeight = state.sky->scaleHeight;
   }
+  if (state.sky && state.absorber) {
+    for (int i = 0; i < 3; ++i) {
+      q.air.absorption[i] = state.absorber->extinction[i];
+    }
+    q.air.absorberPeak = state.absorber->peakAltitude;
+    q.air.absorberWidth = state.absorber->halfWidth;
+  }
   if (state.fog) {
     q.air.fogExtinction = state.fog->extinction;
     q.air.fogBaseAltitude = state.fog->baseAltitude;
@@ -28,8 +35,8 @@ AirQuery airQueryOf(const AirState& state) {
     }
     q.droplets = &state.fogPhase->particle;
   }
-  if (state.light) {
-    const WlkLight& light = *state.light;
+  if (index < state.lightCount) {
+    const WlkLight& light = state.lights[index];
     q.light = true;
     q.toLight =
         glm::normalize(glm::dvec3(light.direction[0], light.direction[1], light.direction[2]));

@@ -21,7 +21,8 @@ struct AirQuery {
   double irradiance[3] = {0, 0, 0};
 };
 
-AirQuery airQueryOf(const AirState& state);
+// With one of the lights, if there are so many.
+AirQuery airQueryOf(const AirState& state, uint32_t light = 0);
 
 // Fails, naming `argument`, unless all three are in [-1e9, 1e9].
 glm::dvec3 checkedPoint(const double position[3], const char* argument);

@@ -93,8 +93,8 @@ double bandShare(const AirInput& air, double altitude) {
   return clear * (above + (1 - above) * inFog);
 }
 
-Surroundings surroundingsOf(WlkContext_T& c, const AirQuery& query, const PlanetFrame& frame) {
-  const SkyField& field = skyFieldOf(c, query);
+Surroundings surroundingsOf(const SkyField& field, const AirQuery& query,
+                            const PlanetFrame& frame) {
   if (frame.altitude > field.top()) {
     fail(WLK_ERROR_INVALID_ARGUMENT, 0, "position",
          "position is %g m high, ambient light is known up to %g m", frame.altitude, field.top());
@@ -140,22 +140,24 @@ WlkResult wlkEvalAmbient(WlkContext context, const double position[3],
     WlkContext_T& c = checkContext(context);
     const glm::dvec3 point = checkedPoint(position, "position");
     checkPointer(coefficients, "coefficients");
-    const AirQuery query = airQueryOf(c.air);
-    if (!query.light) {
-      std::fill_n(coefficients, WLK_AMBIENT_VALUES, 0.0);
-      return WLK_SUCCESS;
-    }
-    const Surroundings around = surroundingsOf(c, query, planetFrameAt(c.air.planet, point));
-    for (size_t k = 0; k < 3; ++k) {
-      Tensors sum = around.sky[k];
-      sum.light += around.peak[k];
-      sum.first += around.peak[k] * query.toLight;
-      addOuter(sum.second, around.peak[k], query.toLight, query.toLight);
-      storeHarmonics(sum, k, coefficients);
-      for (size_t i = 0; i < WLK_AMBIENT_VALUES / 3; ++i) {
-        coefficients[3 * i + k] *= query.irradiance[k];
+    std::array<double, WLK_AMBIENT_VALUES> total{};
+    for (uint32_t l = 0; l < c.air.lightCount; ++l) {
+      const AirQuery query = airQueryOf(c.air, l);
+      const Surroundings around = surroundingsOf(skyFieldOf(c, airQueryOf(c.air)), query,
+                                                 planetFrameAt(c.air.planet, point));
+      std::array<double, WLK_AMBIENT_VALUES> one{};
+      for (size_t k = 0; k < 3; ++k) {
+        Tensors sum = around.sky[k];
+        sum.light += around.peak[k];
+        sum.first += around.peak[k] * query.toLight;
+        addOuter(sum.second, around.peak[k], query.toLight, query.toLight);
+        storeHarmonics(sum, k, one.data());
+        for (size_t i = 0; i < WLK_AMBIENT_VALUES / 3; ++i) {
+          total[3 * i + k] += one[3 * i + k] * query.irradiance[k];
+        }
       }
     }
+    std::copy(total.begin(), total.end(), coefficients);
     return WLK_SUCCESS;
   });
 }
@@ -166,24 +168,28 @@ WlkResult wlkEvalIrradiance(WlkContext context, const double position[3], const 
     WlkContext_T& c = checkContext(context);
     const glm::dvec3 point = checkedPoint(position, "position");
     const glm::dvec3 facing = checkedDirection(normal, "normal");
-    const AirQuery query = airQueryOf(c.air);
     const PlanetFrame frame = planetFrameAt(c.air.planet, point);
-    const double cosine = std::max(glm::dot(facing, query.toLight), 0.0);
     glm::dvec3 sky(0);
-    if (query.light && diffuse != nullptr) {
-      const Surroundings around = surroundingsOf(c, query, frame);
-      for (size_t k = 0; k < 3; ++k) {
-        // The peak comes from one direction, which needs no harmonics.
-        const double light = irradianceOn(facing, around.sky[k]) + around.peak[k] * cosine -
+    glm::dvec3 light(0);
+    for (uint32_t l = 0; l < c.air.lightCount; ++l) {
+      const AirQuery query = airQueryOf(c.air, l);
+      const double cosine = std::max(glm::dot(facing, query.toLight), 0.0);
+      if (diffuse != nullptr) {
+        const Surroundings around = surroundingsOf(skyFieldOf(c, airQueryOf(c.air)), query, frame);
+        for (size_t k = 0; k < 3; ++k) {
+          // The peak comes from one direction, which needs no harmonics.
+          const double one = irradianceOn(facing, around.sky[k]) + around.peak[k] * cosine -
                              around.band[k] * fourth(glm::dot(facing, around.up));
-        sky[static_cast<int>(k)] = std::max(light, 0.0) * query.irradiance[k];
+          sky[static_cast<int>(k)] += std::max(one, 0.0) * query.irradiance[k];
+        }
+      }
+      if (direct != nullptr && cosine > 0) {
+        light += cosine * lightIrradiance(query, frame);
       }
     }
-    const bool lit = query.light && direct != nullptr && cosine > 0;
-    const glm::dvec3 light = lit ? lightIrradiance(query, frame) : glm::dvec3(0);
     for (int k = 0; k < 3; ++k) {
       if (direct != nullptr) {
-        direct[k] = light[k] * cosine;
+        direct[k] = light[k];
       }
       if (diffuse != nullptr) {
         diffuse[k] = sky[k];

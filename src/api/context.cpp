@@ -302,7 +302,7 @@ WlkResult wlkGetCapabilities(WlkContext context, WlkCapabilities* capabilities) 
     const WlkContext_T& c = checkContext(context);
     checkOutput(capabilities, WLK_STRUCT_CAPABILITIES, sizeof *capabilities);
     capabilities->mode = c.mode;
-    capabilities->maxLights = 1;
+    capabilities->maxLights = MAX_LIGHTS;
     capabilities->vulkanVersion = 0;
     capabilities->maxVolumeSize = 0;
     capabilities->blendSupported = 0;

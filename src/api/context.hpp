@@ -2,6 +2,7 @@
 // Everything behind a WlkContext.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <memory_resource>
 #include <optional>
@@ -102,6 +103,14 @@ struct WlkContext_T {
   welkin::vk::Image dummy3d;
 
   bool fogActive() const { return air.fog && air.fog->extinction > 0; }
+  bool absorbs() const {
+    return air.absorber && (air.absorber->extinction[0] > 0 || air.absorber->extinction[1] > 0 ||
+                            air.absorber->extinction[2] > 0);
+  }
+  bool shapedDisk() const {
+    return std::any_of(air.lights.begin(), air.lights.begin() + air.lightCount,
+                       welkin::hasShapedDisk);
+  }
   welkin::vk::Device& requireDevice(const char* what);
   welkin::MediumState& medium(WlkMedium handle);
   welkin::VolumeState& volume(WlkVolume handle);

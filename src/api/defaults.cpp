@@ -70,11 +70,30 @@ WlkFog fog() {
   return f;
 }
 
+WlkAbsorber absorber() {
+  auto a = blank<WlkAbsorber>(WLK_STRUCT_ABSORBER);
+  assign(a.extinction, {2.7e-6f, 1.7e-6f, 8.5e-8f});
+  a.peakAltitude = 25000.0f;
+  a.halfWidth = 15000.0f;
+  return a;
+}
+
 WlkMediumInfo medium() {
   auto m = blank<WlkMediumInfo>(WLK_STRUCT_MEDIUM_INFO);
   m.asymmetry = 0.85f;
   assign(m.singleScatteringAlbedo, {1.0f, 1.0f, 1.0f});
   return m;
+}
+
+WlkAtmospherePreset preset() {
+  auto p = blank<WlkAtmospherePreset>(WLK_STRUCT_ATMOSPHERE_PRESET);
+  p.planet = planet();
+  p.sky = sky();
+  p.absorber = absorber();
+  p.haze = fog();
+  p.hazeMedium = medium();
+  p.sun = light();
+  return p;
 }
 
 WlkVolumeInfo volume() {
@@ -161,9 +180,13 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
     case WLK_STRUCT_SKY:
       return write(sky(), structSize, structure);
     case WLK_STRUCT_LIGHT:
-      return write(light(), structSize, structure);
+      return write(light(), structSize, structure, LIGHT_FIRST_SIZE);
     case WLK_STRUCT_FOG:
-      return write(fog(), structSize, structure);
+      return write(fog(), structSize, structure, FOG_FIRST_SIZE);
+    case WLK_STRUCT_ABSORBER:
+      return write(absorber(), structSize, structure);
+    case WLK_STRUCT_ATMOSPHERE_PRESET:
+      return write(preset(), structSize, structure);
     case WLK_STRUCT_MEDIUM_INFO:
       return write(medium(), structSize, structure);
     case WLK_STRUCT_MEDIUM_OPTICS:
@@ -173,7 +196,7 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
     case WLK_STRUCT_VOLUME_UPLOAD:
       return write(upload(), structSize, structure);
     case WLK_STRUCT_VIEW_INFO:
-      return write(view(), structSize, structure);
+      return write(view(), structSize, structure, VIEW_FIRST_SIZE);
     case WLK_STRUCT_CAMERA:
       return write(camera(), structSize, structure);
     case WLK_STRUCT_QUALITY:

@@ -98,9 +98,10 @@ WlkResult wlkGetErrorEstimate(WlkContext context, WlkView view, WlkErrorEstimate
       bodies.push_back(bodyOf(*states[plan.volumes[i].index]));
     }
     ErrorInput in = errorInput(c, state, plan);
-    in.light = input.light;
-    in.toLight = input.toLight;
-    in.lightAngularRadius = input.lightAngularRadius;
+    // Of several lights the first, which is the brightest as a rule.
+    in.light = plan.lights.count > 0;
+    in.toLight = plan.lights.light[0].toLight;
+    in.lightAngularRadius = plan.lights.light[0].angularRadius;
     in.eye = input.eye;
     in.quality = input.quality;
     in.volumes = bodies;

@@ -66,6 +66,10 @@ WlkResult wlkEvalSky(WlkContext context, const WlkRayBatch* batch, double* radia
       checkedRay(b, i);
     }
     const AirQuery query = airQueryOf(c.air);
+    std::array<AirQuery, MAX_LIGHTS> queries{query};
+    for (uint32_t l = 1; l < c.air.lightCount; ++l) {
+      queries[l] = airQueryOf(c.air, l);
+    }
     const bool light = radiance != nullptr && b.count > 0;
     const SkyField* const field = light ? higherOrdersOf(c, query, b.maxOrder) : nullptr;
     for (uint32_t i = 0; i < b.count; ++i) {
@@ -73,13 +77,18 @@ WlkResult wlkEvalSky(WlkContext context, const WlkRayBatch* batch, double* radia
       const glm::dvec3 direction(ray.direction[0], ray.direction[1], ray.direction[2]);
       const PlanetFrame eye =
           planetFrameAt(c.air.planet, glm::dvec3(ray.origin[0], ray.origin[1], ray.origin[2]));
-      const SkyQueryRay way = skyQueryRay(query, eye, glm::normalize(direction), ray.length);
-      const SkyQueryResult result =
-          evalSkyRay(query, c.air.planet, field, way, fogPhaseAt(query, way.y));
+      SkyQueryResult result;
+      glm::dvec3 sum(0);
+      for (uint32_t l = 0; l < std::max(c.air.lightCount, 1U); ++l) {
+        const AirQuery& q = queries[l];
+        const SkyQueryRay way = skyQueryRay(q, eye, glm::normalize(direction), ray.length);
+        result = evalSkyRay(q, c.air.planet, field, way, fogPhaseAt(q, way.y));
+        sum += result.air;
+      }
       for (int k = 0; k < 3; ++k) {
         const size_t at = size_t{3} * i + static_cast<size_t>(k);
         if (radiance != nullptr) {
-          radiance[at] = result.air[k];
+          radiance[at] = sum[k];
         }
         if (transmittance != nullptr) {
           transmittance[at] = result.transmittance[k];
@@ -96,12 +105,12 @@ WlkResult wlkEvalLight(WlkContext context, uint32_t lightIndex, const double pos
     WlkContext_T& c = checkContext(context);
     checkPointer(position, "position");
     checkPointer(irradiance, "irradiance");
-    if (lightIndex > 0 || !c.air.light) {
+    if (lightIndex >= c.air.lightCount) {
       fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_LIGHT, "lightIndex", "light %u is not set",
            lightIndex);
     }
     const glm::dvec3 point = checkedPoint(position, "position");
-    const AirQuery query = airQueryOf(c.air);
+    const AirQuery query = airQueryOf(c.air, lightIndex);
     const glm::dvec3 result = lightIrradiance(query, planetFrameAt(c.air.planet, point));
     for (int i = 0; i < 3; ++i) {
       irradiance[i] = result[i];

@@ -254,7 +254,7 @@ void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
   makePlan(input, view.plan);
   const PlanetFrame eye = planetFrameAt(input.planet, input.eye);
   view.plan.space = view.plan.multiple && seenFromSpace(c.skyLight.now, eye.altitude);
-  view.plan.allLight = tableHoldsAllLight(view.plan, eye.altitude, glm::dot(eye.up, input.toLight));
+  view.plan.allLight = tableHoldsAllLight(view.plan, c.skyLight.now, input.planet.radius, eye);
 
   RecordInput record;
   record.air = &c.air;
@@ -298,7 +298,10 @@ WlkResult wlkPrepare(WlkContext context) {
     }
     SceneFeatures features;
     features.sky = c.air.sky.has_value();
+    features.absorber = features.sky && c.absorbs();
     features.fog = c.fogActive();
+    features.lights = std::max(c.air.lightCount, 1U);
+    features.shapedDisk = c.shapedDisk();
     prepareSkyLight(c);
     c.recordVolumes.reserve(c.volumes.count());
     for (uint32_t i = 0; i < c.views.slotCount(); ++i) {

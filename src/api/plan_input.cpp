@@ -7,6 +7,7 @@ PlanInput planInput(const WlkContext_T& c, const ViewState& view) {
   PlanInput input;
   input.layers = view.info.layers;
   input.sky = c.air.sky.has_value();
+  input.absorber = c.absorbs();
   input.fog = c.fogActive();
   if (input.sky) {
     input.airScaleHeight = c.air.sky->scaleHeight;
@@ -16,12 +17,16 @@ PlanInput planInput(const WlkContext_T& c, const ViewState& view) {
     input.fogScaleHeight = c.air.fog->scaleHeight;
   }
   input.planet = c.air.planet;
-  if (c.air.light) {
-    const WlkLight& light = *c.air.light;
-    input.light = light.irradiance[0] > 0 || light.irradiance[1] > 0 || light.irradiance[2] > 0;
-    input.toLight =
-        glm::normalize(glm::dvec3(light.direction[0], light.direction[1], light.direction[2]));
-    input.lightAngularRadius = 0.5 * light.angularDiameter;
+  for (uint32_t i = 0; i < c.air.lightCount; ++i) {
+    const WlkLight& light = c.air.lights[i];
+    if (light.irradiance[0] > 0 || light.irradiance[1] > 0 || light.irradiance[2] > 0) {
+      PlanLight& one = input.lights.light[input.lights.count++];
+      one.index = i;
+      one.toLight =
+          glm::normalize(glm::dvec3(light.direction[0], light.direction[1], light.direction[2]));
+      one.angularRadius = 0.5 * light.angularDiameter;
+      one.shaped = hasShapedDisk(light);
+    }
   }
   input.eye = {view.camera.position[0], view.camera.position[1], view.camera.position[2]};
   input.clipFromEye = view.clipFromEye;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Planet, sky, lights, fog, media and volumes.
+// Volumes: boxes of density fields and their data.
 #include <cmath>
 #include <utility>
 
@@ -9,63 +9,6 @@
 namespace {
 
 using namespace welkin;
-
-WlkPlanet checkedPlanet(const WlkPlanet* planet) {
-  const WlkPlanet p = copyStruct(planet, WLK_STRUCT_PLANET);
-  checkNoChain(planet);
-  for (const double x : p.seaLevelPoint) {
-    checkRange(p.sType, "seaLevelPoint", x, -1e9, 1e9);
-  }
-  checkUnit(p.sType, "up", p.up);
-  checkRange(p.sType, "radius", p.radius, 1e4, 1e9);
-  checkRange3(p.sType, "groundAlbedo", p.groundAlbedo, 0, 1);
-  return p;
-}
-
-WlkSky checkedSky(const WlkSky* sky) {
-  const WlkSky s = copyStruct(sky, WLK_STRUCT_SKY);
-  checkNoChain(sky);
-  checkRange3(s.sType, "rayleighScattering", s.rayleighScattering, 0, 1);
-  checkRange(s.sType, "scaleHeight", s.scaleHeight, 100, 1e5);
-  return s;
-}
-
-WlkLight checkedLight(const WlkLight* light) {
-  const WlkLight l = copyStruct(light, WLK_STRUCT_LIGHT);
-  checkNoChain(light);
-  checkUnit(l.sType, "direction", l.direction);
-  checkRange(l.sType, "angularDiameter", l.angularDiameter, 0, 0.2);
-  checkRange3(l.sType, "irradiance", l.irradiance, 0, 1e6);
-  return l;
-}
-
-WlkFog checkedFog(const WlkFog* fog) {
-  const WlkFog f = copyStruct(fog, WLK_STRUCT_FOG);
-  checkNoChain(fog);
-  checkRange(f.sType, "dropletDiameter_um", f.dropletDiameter_um, 0.1f, 50);
-  checkRange(f.sType, "phaseModel", f.phaseModel, WLK_PHASE_DEFAULT, WLK_PHASE_TABLE);
-  checkRange(f.sType, "extinction", f.extinction, 0, 10);
-  checkRange(f.sType, "baseAltitude", f.baseAltitude, -1e4, 1e5);
-  checkRange(f.sType, "scaleHeight", f.scaleHeight, 1, 1e5);
-  checkRange3(f.sType, "singleScatteringAlbedo", f.singleScatteringAlbedo, 0, 1);
-  return f;
-}
-
-std::shared_ptr<const FogPhaseState> makeFogPhase(const WlkFog& fog) {
-  ParticleParams params;
-  params.diameter_um = static_cast<double>(fog.dropletDiameter_um);
-  params.spread = FOG.spread.initial;
-  params.analytic = fog.phaseModel == WLK_PHASE_ANALYTIC;
-  auto phase = std::make_shared<FogPhaseState>();
-  phase->particle = FOG.make(params);
-  for (size_t i = 0; i < phase->curve.size(); ++i) {
-    for (int c = 0; c < 3; ++c) {
-      phase->curve[i][c] =
-          static_cast<float>(phase->particle.curve.value[static_cast<size_t>(c)][i]);
-    }
-  }
-  return phase;
-}
 
 glm::dmat4x3 transformOf(const double* m) {
   return {m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10], m[3], m[7], m[11]};
@@ -96,79 +39,6 @@ void checkVolumeMemory(vk::Device& device, const WlkVolumeInfo& info) {
 }
 
 }  // namespace
-
-WlkResult wlkSetPlanet(WlkContext context, const WlkPlanet* planet) {
-  return guarded([&] {
-    WlkContext_T& c = checkContext(context);
-    WlkPlanet value;
-    if (planet == nullptr) {
-      wlkInitStruct(WLK_STRUCT_PLANET, sizeof value, &value);
-    } else {
-      value = checkedPlanet(planet);
-    }
-    c.air.planet = value;
-    return WLK_SUCCESS;
-  });
-}
-
-WlkResult wlkSetSky(WlkContext context, const WlkSky* sky) {
-  return guarded([&] {
-    WlkContext_T& c = checkContext(context);
-    std::optional<WlkSky> value;
-    if (sky != nullptr) {
-      value = checkedSky(sky);
-    }
-    if (value.has_value() != c.air.sky.has_value()) {
-      c.invalidate();
-    }
-    c.air.sky = value;
-    return WLK_SUCCESS;
-  });
-}
-
-WlkResult wlkSetFog(WlkContext context, const WlkFog* fog) {
-  return guarded([&] {
-    WlkContext_T& c = checkContext(context);
-    std::optional<WlkFog> value;
-    if (fog != nullptr) {
-      value = checkedFog(fog);
-    }
-    const bool same = value && c.air.fog && c.air.fogPhase &&
-                      value->dropletDiameter_um == c.air.fog->dropletDiameter_um &&
-                      value->phaseModel == c.air.fog->phaseModel;
-    // What may fail first: a failed call changes nothing.
-    const std::shared_ptr<const FogPhaseState> phase =
-        value && !same ? makeFogPhase(*value) : c.air.fogPhase;
-    if ((value && value->extinction > 0) != c.fogActive()) {
-      c.invalidate();
-    }
-    c.air.fogPhase = phase;
-    c.air.fog = value;
-    return WLK_SUCCESS;
-  });
-}
-
-WlkResult wlkSetLights(WlkContext context, uint32_t count, uint32_t stride,
-                       const WlkLight* lights) {
-  return guarded([&] {
-    WlkContext_T& c = checkContext(context);
-    if (count > 1) {
-      fail(WLK_ERROR_LIMIT_EXCEEDED, WLK_STRUCT_LIGHT, "count", "%u lights, this version takes 1",
-           count);
-    }
-    std::optional<WlkLight> value;
-    if (count == 1) {
-      checkPointer(lights, "lights");
-      if (stride < sizeof(WlkLight)) {
-        fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_LIGHT, "stride",
-             "stride is %u, expected at least %zu", stride, sizeof(WlkLight));
-      }
-      value = checkedLight(lights);
-    }
-    c.air.light = value;
-    return WLK_SUCCESS;
-  });
-}
 
 WlkResult wlkCreateVolume(WlkContext context, const WlkVolumeInfo* info, WlkVolume* volume) {
   return guarded([&] {

@@ -30,6 +30,9 @@ bool same(const SkyLightSource& a, const SkyLightSource& b) {
 
 // Rows of the image: a block of altitudes for each moment, then the light of the ground.
 constexpr uint32_t ROWS = SkyField::MOMENTS * SkyField::ALTITUDES + 1;
+static_assert(ROWS == interface_::MOMENT_ROWS);
+static_assert(SkyField::SUNS == interface_::MOMENT_SUNS);
+static_assert(SkyField::ALTITUDES == interface_::MOMENT_ALTITUDES);
 constexpr size_t ROW_FLOATS = SkyField::SUNS * LANES;
 
 void fillRows(const SkyField& field, float* rows) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "api/context.hpp"
 #include "api/sky_query.hpp"
@@ -30,10 +31,11 @@ constexpr double FINEST = 0.002;
 
 class SkyMap {
  public:
-  SkyMap(WlkContext_T& c, const WlkSkyMapQuery& query)
+  // Of one of the lights.
+  SkyMap(WlkContext_T& c, const WlkSkyMapQuery& query, uint32_t light)
       : planet_(c.air.planet),
-        air_(airQueryOf(c.air)),
-        field_(higherOrdersOf(c, air_, query.maxOrder)),
+        air_(airQueryOf(c.air, light)),
+        field_(higherOrdersOf(c, airQueryOf(c.air), query.maxOrder)),
         eye_(planetFrameAt(planet_, checkedPoint(query.position, "position"))) {
     eye_.altitude = std::max(eye_.altitude, 0.0);
   }
@@ -119,12 +121,18 @@ WlkResult wlkEvalSkyMap(WlkContext context, const WlkSkyMapQuery* query, float* 
     checkRange(q.sType, "size", q.size, 4, 1024);
     checkRange(q.sType, "maxOrder", q.maxOrder, ALL_ORDERS, FIRST_ORDER);
     checkPointer(rgb, "rgb");
-    const SkyMap map(c, q);
+    std::array<std::optional<SkyMap>, MAX_LIGHTS> maps;
+    for (uint32_t l = 0; l < std::max(c.air.lightCount, 1U); ++l) {
+      maps[l].emplace(c, q, l);
+    }
     const double halfWidth = 1.0 / q.size;
     for (uint32_t j = 0; j < q.size; ++j) {
       for (uint32_t i = 0; i < q.size; ++i) {
         const glm::dvec2 uv((2.0 * i + 1) * halfWidth - 1, (2.0 * j + 1) * halfWidth - 1);
-        const glm::dvec3 light = map.texel(uv, halfWidth);
+        glm::dvec3 light(0);
+        for (const std::optional<SkyMap>& map : maps) {
+          light += map ? map->texel(uv, halfWidth) : glm::dvec3(0);
+        }
         for (int k = 0; k < 3; ++k) {
           *rgb++ = static_cast<float>(
               std::min(light[k], static_cast<double>(std::numeric_limits<float>::max())));

@@ -24,6 +24,10 @@ const char* structName(uint32_t sType) {
       return "WlkLight";
     case WLK_STRUCT_FOG:
       return "WlkFog";
+    case WLK_STRUCT_ABSORBER:
+      return "WlkAbsorber";
+    case WLK_STRUCT_ATMOSPHERE_PRESET:
+      return "WlkAtmospherePreset";
     case WLK_STRUCT_MEDIUM_INFO:
       return "WlkMediumInfo";
     case WLK_STRUCT_MEDIUM_OPTICS:

@@ -23,8 +23,11 @@ const char* structName(uint32_t sType);
 
 void checkPointer(const void* pointer, const char* argument);
 
-// What WlkRayBatch was before maxOrder.
+// What WlkRayBatch was before maxOrder, WlkLight before limbDarkening, WlkFog before medium.
 constexpr uint32_t RAY_BATCH_FIRST_SIZE = offsetof(WlkRayBatch, maxOrder);
+constexpr uint32_t VIEW_FIRST_SIZE = offsetof(WlkViewInfo, color);
+constexpr uint32_t LIGHT_FIRST_SIZE = offsetof(WlkLight, limbDarkening);
+constexpr uint32_t FOG_FIRST_SIZE = offsetof(WlkFog, medium);
 
 // Pointer, sType and structSize of a structure; `size` is this library's sizeof, `firstSize` that
 // of the header that introduced the structure, 0 if it has not grown since.

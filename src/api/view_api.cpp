@@ -9,7 +9,7 @@ namespace {
 using namespace welkin;
 
 WlkViewInfo checkedView(const WlkContext_T& c, const WlkViewInfo* info) {
-  WlkViewInfo v = copyStruct(info, WLK_STRUCT_VIEW_INFO);
+  WlkViewInfo v = copyStruct(info, WLK_STRUCT_VIEW_INFO, VIEW_FIRST_SIZE);
   checkNoChain(info);
   checkRange(v.sType, "width", v.width, 1, 16384);
   checkRange(v.sType, "height", v.height, 1, 16384);
@@ -18,6 +18,7 @@ WlkViewInfo checkedView(const WlkContext_T& c, const WlkViewInfo* info) {
     fail(WLK_ERROR_UNSUPPORTED_FORMAT, v.sType, "targetFormat", "WlkViewInfo::targetFormat is %u",
          v.targetFormat);
   }
+  checkRange(v.sType, "color", v.color, WLK_COLOR_WAVELENGTHS, WLK_COLOR_SRGB);
   if ((v.layers & ~uint64_t{WLK_LAYER_ALL}) != 0) {
     fail(WLK_ERROR_INVALID_ARGUMENT, v.sType, "layers", "WlkViewInfo::layers has unknown bits");
   }

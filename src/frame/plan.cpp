@@ -30,11 +30,11 @@ double airTop(const PlanInput& in) {
 
 // The eye sees air as far as its own horizon and that of the air's top lie apart, and the light
 // reaches it there: in twilight long after the light has set for the eye.
-bool lightReachesAir(const PlanInput& in, const PlanetFrame& eye) {
+bool lightReachesAir(const PlanInput& in, const PlanLight& light, const PlanetFrame& eye) {
   const double radius = in.planet.radius;
   const double top = std::max(airTop(in), eye.altitude);
   const double reach = horizonDip(eye.altitude, radius) + horizonDip(top, radius);
-  return aboveHorizon(glm::dot(eye.up, in.toLight), top, reach, radius, in.lightAngularRadius);
+  return aboveHorizon(glm::dot(eye.up, light.toLight), top, reach, radius, light.angularRadius);
 }
 
 std::array<glm::dvec3, 8> cornersOf(const glm::dmat4x3& box) {
@@ -113,7 +113,8 @@ PixelRect unite(const PixelRect& a, const PixelRect& b) {
 
 // Whether the light may reach the box (`corners` relative to the eye, at most `top` m high) or the
 // air between it and the eye, which the volume's passes shade as well.
-bool lightReachesVolume(const PlanInput& in, const std::array<glm::dvec3, 8>& corners, double top) {
+bool lightReachesVolume(const PlanInput& in, const PlanLight& light,
+                        const std::array<glm::dvec3, 8>& corners, double top) {
   const double radius = in.planet.radius;
   const glm::dvec3 middle = 0.5 * (corners[0] + corners[7]);
   const PlanetFrame frame = planetFrameAt(in.planet, middle + in.eye);
@@ -128,10 +129,26 @@ bool lightReachesVolume(const PlanInput& in, const std::array<glm::dvec3, 8>& co
     reach += std::acos(std::clamp(glm::dot(frame.up, eye.up), -1.0, 1.0));
     top = std::max(top, std::min(eye.altitude, airTop(in)));
   }
-  return aboveHorizon(glm::dot(frame.up, in.toLight), top, reach, radius, in.lightAngularRadius);
+  return aboveHorizon(glm::dot(frame.up, light.toLight), top, reach, radius, light.angularRadius);
 }
 
-PlannedVolume planVolume(const PlanInput& in, const PlanVolume& volume) {
+// The lights that reach the air the eye sees; if none does, the first, which may reach a volume.
+PlanLights chooseLights(const PlanInput& in, const PlanetFrame& eye, bool& reachesAir) {
+  PlanLights chosen;
+  for (uint32_t i = 0; i < in.lights.count; ++i) {
+    const bool reaches = lightReachesAir(in, in.lights.light[i], eye);
+    reachesAir = reachesAir || reaches;
+    if (reaches || in.quality.noSkip) {
+      chosen.light[chosen.count++] = in.lights.light[i];
+    }
+  }
+  if (chosen.count == 0 && in.lights.count > 0) {
+    chosen.light[chosen.count++] = in.lights.light[0];
+  }
+  return chosen;
+}
+
+PlannedVolume planVolume(const PlanInput& in, const PlanLights& lights, const PlanVolume& volume) {
   PlannedVolume result{};
   result.id = volume.id;
   result.index = volume.index;
@@ -164,9 +181,10 @@ PlannedVolume planVolume(const PlanInput& in, const PlanVolume& volume) {
     top = std::max(top, planetFrameAt(in.planet, corner + in.eye).altitude);
   }
   const glm::dvec3 middle = box * glm::dvec4(0.5, 0.5, 0.5, 1.0);
-  result.lit = in.light && lightReachesVolume(in, corners, top);
+  const PlanLight& light = lights.light[0];
+  result.lit = lights.count > 0 && lightReachesVolume(in, light, corners, top);
   if (!result.lit) {
-    if (in.quality.noSkip && in.light) {
+    if (in.quality.noSkip && lights.count > 0) {
       result.lit = true;
       result.lightReason = WLK_REASON_NO_SKIP_FLAG;
     } else {
@@ -174,7 +192,7 @@ PlannedVolume planVolume(const PlanInput& in, const PlanVolume& volume) {
     }
   }
   const glm::dvec3 view = glm::length(middle) > 0 ? glm::normalize(middle) : glm::dvec3(0, 0, -1);
-  result.layout = layoutSlices(box, in.toLight, view, in.quality);
+  result.layout = layoutSlices(box, light.toLight, view, in.quality);
   return result;
 }
 
@@ -276,8 +294,11 @@ void makePlan(const PlanInput& in, Plan& plan) {
   plan.volumes.clear();
   plan.drawnCount = 0;
   plan.volumeRect = {};
+  const PlanetFrame eye = planetFrameAt(in.planet, in.eye);
+  bool reachesAir = false;
+  plan.lights = chooseLights(in, eye, reachesAir);
   for (const PlanVolume& volume : in.volumes) {
-    plan.volumes.push_back(planVolume(in, volume));
+    plan.volumes.push_back(planVolume(in, plan.lights, volume));
   }
   std::sort(plan.volumes.begin(), plan.volumes.end(),
             [](const PlannedVolume& a, const PlannedVolume& b) {
@@ -293,18 +314,22 @@ void makePlan(const PlanInput& in, Plan& plan) {
     }
   }
   plan.air = in.sky && (in.layers & WLK_LAYER_SKY) != 0;
+  plan.absorber = plan.air && in.absorber;
   plan.fog = in.fog && (in.layers & WLK_LAYER_FOG) != 0;
-  const PlanetFrame eye = planetFrameAt(in.planet, in.eye);
   // The passes of a lit volume shade the air before it as well.
   plan.lightReaches =
-      in.light && (lightReachesAir(in, eye) ||
-                   std::any_of(plan.volumes.begin(), plan.volumes.end(), [](const auto& volume) {
-                     return volume.drawn && volume.lit &&
-                            volume.lightReason != WLK_REASON_NO_SKIP_FLAG;
-                   }));
-  plan.light = plan.lightReaches || (in.light && in.quality.noSkip);
-  plan.disk =
-      plan.air && in.light && (in.layers & WLK_LAYER_SUN_DISK) != 0 && in.lightAngularRadius > 0;
+      reachesAir || std::any_of(plan.volumes.begin(), plan.volumes.end(), [](const auto& volume) {
+        return volume.drawn && volume.lit && volume.lightReason != WLK_REASON_NO_SKIP_FLAG;
+      });
+  plan.light = plan.lightReaches || (plan.lights.count > 0 && in.quality.noSkip);
+  plan.disk = false;
+  plan.shapedDisk = false;
+  for (uint32_t i = 0; i < plan.lights.count; ++i) {
+    const PlanLight& light = plan.lights.light[i];
+    const bool shown = plan.air && (in.layers & WLK_LAYER_SUN_DISK) != 0 && light.angularRadius > 0;
+    plan.disk = plan.disk || shown;
+    plan.shapedDisk = plan.shapedDisk || (shown && light.shaped);
+  }
   plan.ground = plan.air && (in.layers & WLK_LAYER_GROUND) != 0;
   plan.multiple = in.quality.multipleSky && plan.light && (plan.air || plan.fog);
   if (plan.multiple && plan.lightReaches) {

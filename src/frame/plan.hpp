@@ -5,12 +5,15 @@
 
 #include <welkin/welkin.h>
 
+#include <array>
 #include <glm/glm.hpp>
 #include <memory_resource>
 #include <span>
 #include <vector>
 
 namespace welkin {
+
+constexpr uint32_t MAX_LIGHTS = 2;
 
 // Sizes and methods that a quality level or its overrides stand for.
 struct SliceQuality {
@@ -57,6 +60,19 @@ struct PixelRect {
   bool empty() const { return x1 <= x0 || y1 <= y0; }
 };
 
+// A light with irradiance.
+struct PlanLight {
+  uint32_t index = 0;  // in the order the engine set them
+  glm::dvec3 toLight{0, 1, 0};
+  double angularRadius = 0;
+  bool shaped = false;  // its disk is not uniform
+};
+// Those that reach the air, in order; all where none is to be skipped.
+struct PlanLights {
+  std::array<PlanLight, MAX_LIGHTS> light;
+  uint32_t count = 0;
+};
+
 struct PlanVolume {
   uint64_t id = 0;
   uint32_t index = 0;  // place in the context's list
@@ -67,15 +83,14 @@ struct PlanVolume {
 struct PlanInput {
   uint64_t layers = 0;
   bool sky = false;
+  bool absorber = false;
   bool fog = false;
   double airScaleHeight = 0;  // m, where `sky`
   double fogBaseAltitude = 0;
   double fogScaleHeight = 0;  // m, where `fog`
-  bool light = false;         // a light with irradiance is set
-  bool mustWrite = false;     // the targets need a value even if nothing is drawn
+  PlanLights lights;
+  bool mustWrite = false;  // the targets need a value even if nothing is drawn
   WlkPlanet planet{};
-  glm::dvec3 toLight{0, 1, 0};
-  double lightAngularRadius = 0;
   glm::dvec3 eye{0};
   glm::dmat4 clipFromEye{1.0};  // position relative to the eye, world orientation, to clip space
   uint32_t width = 0;
@@ -102,10 +117,13 @@ struct Plan {
   uint32_t drawnCount = 0;
   PixelRect volumeRect;  // union of the drawn ones
   bool air = false;
+  bool absorber = false;  // in the air
   bool fog = false;
+  PlanLights lights;          // volumes are lit by the first
   bool lightReaches = false;  // air, fog or ground
   bool light = false;         // and is shaded
   bool disk = false;
+  bool shapedDisk = false;
   bool ground = false;
   bool multiple = false;  // its light scattered more than once is shown
   bool space = false;     // and gathered by every pixel
@@ -113,6 +131,13 @@ struct Plan {
   bool composite = false;
   uint32_t skyReason = WLK_REASON_NEEDED;
   uint32_t compositeReason = WLK_REASON_NEEDED;
+
+  // AIR_KIND of the passes.
+  uint32_t airKind() const { return air ? (absorber ? 2U : 1U) : 0U; }
+  // LIGHT_COUNT of the passes.
+  uint32_t lightCount() const { return light ? lights.count : 0U; }
+  // DISK_KIND of the passes.
+  uint32_t diskKind() const { return disk ? (shapedDisk ? 2U : 1U) : 0U; }
 };
 
 // Fills `plan`; allocates only if there are more volumes than plan.volumes has room for.

@@ -68,7 +68,7 @@ class Recorder {
   vk::PipelineKey eyeKeyOf(const PlannedVolume& planned) const {
     const Plan& plan = view_.plan;
     return eyeKey(
-        {plan.air, plan.fog, planned.lit, static_cast<bool>(targets_.depth), plan.allLight},
+        {plan.airKind(), plan.fog, planned.lit, static_cast<bool>(targets_.depth), plan.allLight},
         volumeOf(planned).state->fieldCount, quality_.forwardScattering);
   }
 
@@ -91,26 +91,26 @@ class Recorder {
       }
     }
     if (plan.multiple) {
-      find(skyTableKey(plan.air, plan.fog, plan.allLight));
+      find(skyTableKey(plan.airKind(), plan.fog, plan.lightCount(), plan.allLight));
     }
     if (plan.composite) {
       CompositeVariant v{};
-      v.air = plan.air;
+      v.air = plan.airKind();
       v.fog = plan.fog;
-      v.light = plan.light;
+      v.lights = plan.lightCount();
       v.volumes = view_.resources.volumeCapacity > 0;
       v.depth = static_cast<bool>(targets_.depth);
-      v.disk = plan.disk;
       v.ground = plan.ground;
       v.multiple = plan.multiple;
       v.space = plan.space;
       v.allLight = plan.allLight;
-      // Variants are prepared for a layer as a whole, so a light without a disk keeps the disk off;
-      // gathering by pixel from high up only, and until then the table has to do.
+      // Variants are prepared for a layer as a whole: a light without a disk, or with a simpler one
+      // than is prepared, takes that of the layer; gathering by pixel is from high up only, and
+      // until then the table has to do.
       vk::PipelineKey key;
       bool found = false;
       for (const bool space : {v.space, false}) {
-        for (const bool disk : {plan.disk, plan.disk || v.light}) {
+        for (const uint32_t disk : {plan.diskKind(), 1U, 2U}) {
           if (!found) {
             v.space = space;
             v.disk = disk;
@@ -182,8 +182,10 @@ class Recorder {
         bindSkyTable(bindings_, pipelines_, r, slot_.skyTable, in_);
         vk_.CmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.skyLayout(),
                                   0, 1, &slot_.skyTable.set, 0, nullptr);
-        dispatch(find(skyTableKey(view_.plan.air, view_.plan.fog, view_.plan.allLight)),
-                 pipelines_.skyLayout(), nullptr, groups(interface_::SKY_AZIMUTHS),
+        const Plan& plan = view_.plan;
+        const uint32_t lights = plan.lightCount();
+        dispatch(find(skyTableKey(plan.airKind(), plan.fog, lights, plan.allLight)),
+                 pipelines_.skyLayout(), nullptr, groups(interface_::SKY_AZIMUTHS * lights),
                  groups(interface_::SKY_ZENITHS), stats, 0);
         orderShaders();
         r.skyKey = skyKey_;

@@ -113,7 +113,8 @@ void makeSkyTables(vk::Device& device, const SceneFeatures& features, ViewResour
   vk::ImageInfo info;
   info.type = VK_IMAGE_TYPE_3D;
   info.format = VK_FORMAT_R32G32B32A32_SFLOAT;
-  info.extent = {interface_::SKY_AZIMUTHS, interface_::SKY_ZENITHS, interface_::SKY_SHARES};
+  info.extent = {interface_::SKY_AZIMUTHS * features.lights, interface_::SKY_ZENITHS,
+                 interface_::SKY_SHARES};
   info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
   r.skyTable = vk::Image(device, info);
   if (features.fog) {
@@ -139,37 +140,42 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
   // Every state the frame may find the scene in without another wlkPrepare: light above or below
   // the horizon, something opaque or not, volumes in view or not.
   const SliceQuality quality = resolveQuality(view.quality);
-  const bool air = features.sky && (view.info.layers & WLK_LAYER_SKY) != 0;
+  const bool sky = features.sky && (view.info.layers & WLK_LAYER_SKY) != 0;
+  const uint32_t air = sky ? (features.absorber ? 2 : 1) : 0;
   const bool fog = features.fog && (view.info.layers & WLK_LAYER_FOG) != 0;
-  for (const bool light : {false, true}) {
+  for (uint32_t lights = 0; lights <= features.lights; ++lights) {
     for (const bool depth : {false, true}) {
       for (const uint32_t fields : fieldCounts) {
-        EyeVariant v{air, fog, light, depth, false};
+        EyeVariant v{air, fog, lights > 0, depth, false};
         pipelines.prepare(eyeKey(v, fields, quality.forwardScattering));
-        v.allLight = light && air && !fog && quality.multipleSky;
+        v.allLight = lights > 0 && sky && !fog && quality.multipleSky;
         pipelines.prepare(eyeKey(v, fields, quality.forwardScattering));
       }
       CompositeVariant v{};
       v.air = air;
       v.fog = fog;
-      v.light = light;
+      v.lights = lights;
       v.volumes = !fieldCounts.empty();
       v.depth = depth;
-      v.disk = air && light && (view.info.layers & WLK_LAYER_SUN_DISK) != 0;
-      v.ground = air && (view.info.layers & WLK_LAYER_GROUND) != 0;
-      v.multiple = quality.multipleSky && light;
+      if (sky && (view.info.layers & WLK_LAYER_SUN_DISK) != 0) {
+        v.disk = features.shapedDisk ? 2 : 1;
+      }
+      v.ground = sky && (view.info.layers & WLK_LAYER_GROUND) != 0;
+      v.multiple = quality.multipleSky && lights > 0;
       pipelines.prepare(compositeKey(view.info, v));
       v.space = v.multiple && features.space;
       pipelines.prepare(compositeKey(view.info, v));
       v.space = false;
-      v.allLight = v.multiple && air && !fog;
+      v.allLight = v.multiple && sky && !fog;
       pipelines.prepare(compositeKey(view.info, v));
     }
   }
-  if (quality.multipleSky && (air || fog)) {
-    pipelines.prepare(skyTableKey(air, fog, false));
-    if (!fog) {
-      pipelines.prepare(skyTableKey(air, fog, true));
+  for (uint32_t lights = 1; lights <= features.lights; ++lights) {
+    if (quality.multipleSky && (sky || fog)) {
+      pipelines.prepare(skyTableKey(air, fog, lights, false));
+      if (!fog) {
+        pipelines.prepare(skyTableKey(air, fog, lights, true));
+      }
     }
   }
   for (const uint32_t fields : fieldCounts) {
@@ -228,13 +234,13 @@ vk::PipelineKey eyeKey(const EyeVariant& v, uint32_t fields, bool forward) {
       {v.air, v.fog, v.light, fields, forward ? 1u : 0u, v.depth ? 1u : 0u, v.allLight ? 1u : 0u}};
 }
 
-vk::PipelineKey skyTableKey(bool air, bool fog, bool allLight) {
-  return {vk::Pass::SkyTable, VK_FORMAT_UNDEFINED, {air, fog, 1, allLight}};
+vk::PipelineKey skyTableKey(uint32_t air, bool fog, uint32_t lights, bool allLight) {
+  return {vk::Pass::SkyTable, VK_FORMAT_UNDEFINED, {air, fog, lights, allLight}};
 }
 
 vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& v) {
   vk::PipelineKey key;
-  key.constants = {v.air, v.fog, v.light, v.volumes, v.depth, v.disk && v.light, v.ground};
+  key.constants = {v.air, v.fog, v.lights, v.volumes, v.depth, v.lights > 0 ? v.disk : 0, v.ground};
   if (info.composite == WLK_COMPOSITE_BLEND) {
     key.pass = vk::Pass::CompositeBlend;
     key.format = targetFormat(info.targetFormat);
@@ -243,7 +249,7 @@ vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& v)
     key.constants[7] = info.composite == WLK_COMPOSITE_SEPARATE;
     key.constants[8] = info.targetFormat == WLK_TARGET_RGBA16_FLOAT;
   }
-  key.constants[9] = v.multiple && v.light && (v.air || v.fog);
+  key.constants[9] = v.multiple && v.lights > 0 && (v.air > 0 || v.fog);
   key.constants[10] = v.space && key.constants[9] != 0;
   key.constants[11] = v.allLight && key.constants[9] != 0;
   return key;
@@ -260,6 +266,7 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   ViewResources& r = draft.resources;
   r.volumeCapacity = volumeCount;
   r.space = features.space;
+  r.lights = features.lights;
   const VkDeviceSize alignment =
       std::max<VkDeviceSize>(device.properties().limits.minUniformBufferOffsetAlignment, 16);
   r.volumeStride = alignUp(sizeof(VolumeUniforms), alignment);

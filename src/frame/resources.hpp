@@ -12,7 +12,10 @@ namespace welkin {
 // Which air models the scene has; decides the pipelines of a view.
 struct SceneFeatures {
   bool sky = false;
+  bool absorber = false;
   bool fog = false;
+  uint32_t lights = 1;
+  bool shapedDisk = false;
   bool space = false;  // a view's eye is, or may soon be, far above the air
 };
 
@@ -34,12 +37,18 @@ constexpr VkDeviceSize FOG_CURVE_BYTES = sizeof(FogPhaseState::curve);
 // The key of a pass in the state a plan asks for.
 vk::PipelineKey lightKey(uint32_t fields, bool forward);
 struct EyeVariant {
-  bool air, fog, light, depth, allLight;
+  uint32_t air;  // Plan::airKind
+  bool fog, light, depth, allLight;
 };
 vk::PipelineKey eyeKey(const EyeVariant& variant, uint32_t fields, bool forward);
-vk::PipelineKey skyTableKey(bool air, bool fog, bool allLight);
+vk::PipelineKey skyTableKey(uint32_t air, bool fog, uint32_t lights, bool allLight);
 struct CompositeVariant {
-  bool air, fog, light, volumes, depth, disk, ground, multiple, space, allLight;
+  uint32_t air;
+  bool fog;
+  uint32_t lights;  // Plan::lightCount
+  bool volumes, depth;
+  uint32_t disk;  // Plan::diskKind
+  bool ground, multiple, space, allLight;
 };
 vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& variant);
 

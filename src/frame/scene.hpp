@@ -120,7 +120,7 @@ struct SkyLightState {
 };
 
 // What a view's sky table was made for: it changes with these numbers only.
-using SkyTableKey = std::array<float, 40>;
+using SkyTableKey = std::array<float, 52>;
 
 struct ViewSlot {
   BoundSet composite;
@@ -146,8 +146,9 @@ struct ViewResources {
   VkDeviceSize fogOffset = 0;
   VkDeviceSize volumeStride = 0;
   vk::Image skyTable;
-  vk::Image skyPeak;   // where there is fog
-  bool space = false;  // pixels may gather their own light
+  vk::Image skyPeak;    // where there is fog
+  bool space = false;   // pixels may gather their own light
+  uint32_t lights = 1;  // that the sky table has room for
   SkyTableKey skyKey{};
   uint64_t skyVersion = 0;  // SkyLightState::version of what is in the table, 0 if nothing is
   vk::Buffer counters;

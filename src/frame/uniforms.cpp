@@ -29,7 +29,11 @@ void fillSky(const AirState& air, double altitude, const Plan& plan, const SkyLi
   out.skyLight = {static_cast<float>(sky.top), static_cast<float>(sky.fogShare),
                   plan.lightReaches ? 1.0f : 0.0f, plan.allLight ? 1.0f : 0.0f};
   out.skyView = {static_cast<float>(model::f64::horizonMu(h, radius)), static_cast<float>(upper),
-                 static_cast<float>(sky.fogScaleHeight), 0};
+                 static_cast<float>(sky.fogScaleHeight), 1};
+  if (plan.absorber) {
+    out.absorber = glm::vec4(vec(air.absorber->extinction), air.absorber->peakAltitude);
+    out.skyView.w = air.absorber->halfWidth;
+  }
   out.eyeFog = sky.eyeFog;
   // The eye's fog is a part of the scene's, which may be thicker or thinner than the solved one.
   const double share = sky.fogExtinction > 0 ? out.eyeFog.w / sky.fogExtinction : 1;
@@ -39,7 +43,53 @@ void fillSky(const AirState& air, double altitude, const Plan& plan, const SkyLi
   out.fogBound = sky.fogBound;
 }
 
+// From radiance at 680, 550 and 440 nm, relative to sunlight, to linear sRGB: fitted to skies of 40
+// wavelengths (tests/bench/sky_color.cpp, docs/results/sky-color.json).
+void fillColor(uint32_t color, interface_::FrameUniforms& out) {
+  if (color == WLK_COLOR_SRGB) {
+    out.colorRed = {0.67230f, 0.55480f, -0.12925f, 0.0f};
+    out.colorGreen = {-0.05182f, 1.02662f, 0.00212f, 0.0f};
+    out.colorBlue = {-0.03470f, 0.05153f, 0.92361f, 0.0f};
+  } else {
+    out.colorRed.x = out.colorGreen.y = out.colorBlue.z = 1.0f;
+  }
+}
+
+void fillLight(const WlkLight& light, const glm::dvec3& up, interface_::LightUniforms& out) {
+  const glm::dvec3 to =
+      glm::normalize(glm::dvec3(light.direction[0], light.direction[1], light.direction[2]));
+  const double radius = 0.5 * light.angularDiameter;
+  out.direction = glm::vec4(glm::vec3(to), static_cast<float>(radius));
+  out.irradiance = glm::vec4(vec(light.irradiance), static_cast<float>(glm::dot(to, up)));
+  out.limb = glm::vec4(vec(light.limbDarkening), 0.0f);
+  if (litByAnother(light)) {
+    const glm::dvec3 from =
+        glm::normalize(glm::dvec3(light.litFrom[0], light.litFrom[1], light.litFrom[2]));
+    out.litFrom =
+        glm::vec4(glm::vec3(from), static_cast<float>(model::f64::phaseIntegral(to, from)));
+  }
+  const double sine = std::sin(radius);
+  const double half = std::sin(0.5 * radius);
+  // Radiance of a uniform disk: E / (pi sin^2 r); the rim's 1 - cos r = 2 sin^2(r / 2). The soft
+  // rim (diskCoverage: a smoothstep over the last 8 % of the area) keeps DISK_KEPT of the area.
+  // A disk under 0.2 arc seconds covers no pixel, and its radiance would overflow a float.
+  if (sine > 1e-6) {
+    const double solidAngle = std::numbers::pi * sine * sine * model::f64::DISK_KEPT;
+    out.disk = glm::vec4(vec(light.irradiance) / static_cast<float>(solidAngle),
+                         static_cast<float>(2.0 * half * half));
+  }
+}
+
 }  // namespace
+
+bool hasShapedDisk(const WlkLight& light) {
+  return litByAnother(light) || light.limbDarkening[0] > 0 || light.limbDarkening[1] > 0 ||
+         light.limbDarkening[2] > 0;
+}
+
+bool litByAnother(const WlkLight& light) {
+  return light.litFrom[0] != 0 || light.litFrom[1] != 0 || light.litFrom[2] != 0;
+}
 
 float targetLimit(uint32_t welkinFormat) {
   switch (welkinFormat) {
@@ -56,12 +106,18 @@ bool seenFromSpace(const SkyLightConstants& sky, double altitude) {
   return altitude > SPACE * sky.top;
 }
 
-bool tableHoldsAllLight(const Plan& plan, double altitude, double sunMu) {
-  // Measured: tests/image/sky_light_test.cpp.
-  constexpr double HIGHEST = 2e4;
-  constexpr double LOWEST_SUN = 0.05;
+bool tableHoldsAllLight(const Plan& plan, const SkyLightConstants& sky, double planetRadius,
+                        const PlanetFrame& eye) {
+  // A quarter of the air that matters, 20 km on Earth; and the sun must stand above the horizon
+  // that the highest fifth of it sees, 3 degrees. Measured: tests/image/sky_light_test.cpp.
+  const double HIGHEST = 0.25 * sky.top;
+  const double LOWEST_SUN = std::sqrt(0.2 * sky.top / planetRadius);
+  bool high = true;
+  for (uint32_t i = 0; i < plan.lights.count; ++i) {
+    high = high && glm::dot(eye.up, plan.lights.light[i].toLight) > LOWEST_SUN;
+  }
   return plan.multiple && plan.air && !plan.fog && !plan.space && plan.lightReaches &&
-         altitude < HIGHEST && sunMu > LOWEST_SUN;
+         eye.altitude < HIGHEST && high;
 }
 
 void fillFrame(const AirState& air, const SkyLightState& sky, const ViewState& view,
@@ -81,25 +137,13 @@ void fillFrame(const AirState& air, const SkyLightState& sky, const ViewState& v
   out.fog.w = air.planet.radius;
   out.fog.z = 1.0f;
   out.air.w = 1.0f;
-  out.lightDisk.w = 1e-30f;  // no disk: keeps y / edge from 0 / 0 for a view into the light
-  if (air.light) {
-    const glm::dvec3 to = glm::normalize(
-        glm::dvec3(air.light->direction[0], air.light->direction[1], air.light->direction[2]));
-    const double radius = 0.5 * air.light->angularDiameter;
-    out.light = glm::vec4(glm::vec3(to), static_cast<float>(radius));
-    out.lightIrradiance =
-        glm::vec4(vec(air.light->irradiance), static_cast<float>(glm::dot(to, frame.up)));
-    const double sine = std::sin(radius);
-    const double half = std::sin(0.5 * radius);
-    // Radiance of a uniform disk: E / (pi sin^2 r); the rim's 1 - cos r = 2 sin^2(r / 2). The soft
-    // rim (diskCoverage: a smoothstep over the last 8 % of the area) keeps 0.96 of the area.
-    // A disk under 0.2 arc seconds covers no pixel, and its radiance would overflow a float.
-    if (sine > 1e-6) {
-      const double solidAngle = std::numbers::pi * sine * sine * 0.96;
-      out.lightDisk = glm::vec4(vec(air.light->irradiance) / static_cast<float>(solidAngle),
-                                static_cast<float>(2.0 * half * half));
-    }
+  for (interface_::LightUniforms& light : out.lights) {
+    light.disk.w = 1e-30f;  // no disk: keeps y / edge from 0 / 0 for a view into the light
   }
+  for (uint32_t i = 0; i < view.plan.lights.count; ++i) {
+    fillLight(air.lights[view.plan.lights.light[i].index], frame.up, out.lights[i]);
+  }
+  fillColor(view.info.color, out);
   if (air.sky) {
     out.air = glm::vec4(vec(air.sky->rayleighScattering), air.sky->scaleHeight);
   }
@@ -107,6 +151,7 @@ void fillFrame(const AirState& air, const SkyLightState& sky, const ViewState& v
     out.fog = {air.fog->extinction, air.fog->baseAltitude, air.fog->scaleHeight, air.planet.radius};
     out.fogAlbedo = glm::vec4(vec(air.fog->singleScatteringAlbedo), 0.0f);
   }
+  out.fogAlbedo.w = 1.0f / static_cast<float>(std::max(view.resources.lights, 1U));
   const PixelRect& rect = view.plan.volumeRect;
   out.volumeRect = {static_cast<float>(rect.x0), static_cast<float>(rect.y0),
                     static_cast<float>(rect.x1), static_cast<float>(rect.y1)};
@@ -114,9 +159,11 @@ void fillFrame(const AirState& air, const SkyLightState& sky, const ViewState& v
 }
 
 SkyTableKey skyTableKeyOf(const interface_::FrameUniforms& frame) {
-  const std::array rows{frame.eye,    frame.light,     frame.lightIrradiance, frame.air,
-                        frame.fog,    frame.fogAlbedo, frame.skyLight,        frame.skyView,
-                        frame.eyeFog, frame.fogFirst};
+  const auto& [first, second] = frame.lights;
+  const std::array rows{frame.eye,         first.direction, first.irradiance, second.direction,
+                        second.irradiance, frame.air,       frame.fog,        frame.fogAlbedo,
+                        frame.skyLight,    frame.skyView,   frame.eyeFog,     frame.fogFirst,
+                        frame.absorber};
   SkyTableKey key;
   static_assert(sizeof key == sizeof rows);
   std::memcpy(key.data(), rows.data(), sizeof key);

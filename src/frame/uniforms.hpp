@@ -20,6 +20,7 @@ using uint = uint32_t;
 #include "interface/sky_table.glsl"
 #include "interface/slices.glsl"
 }  // namespace interface_
+static_assert(interface_::MAX_LIGHTS == MAX_LIGHTS);
 
 // A fog's phase function, also as the GPU reads it: RGB in 1/sr at the nodes of a PhaseCurve.
 struct FogPhaseState {
@@ -30,11 +31,18 @@ struct FogPhaseState {
 // The air the engine set, as the model wants it.
 struct AirState {
   std::optional<WlkSky> sky;
+  std::optional<WlkAbsorber> absorber;
   std::optional<WlkFog> fog;
   std::shared_ptr<const FogPhaseState> fogPhase;  // where there is fog
   WlkPlanet planet{};
-  std::optional<WlkLight> light;
+  std::array<WlkLight, MAX_LIGHTS> lights{};
+  uint32_t lightCount = 0;
 };
+
+// Whether the light's disk shows a phase.
+bool litByAnother(const WlkLight& light);
+// Whether its disk is not uniform.
+bool hasShapedDisk(const WlkLight& light);
 
 void fillFrame(const AirState& air, const SkyLightState& sky, const ViewState& view,
                interface_::FrameUniforms& out);
@@ -42,7 +50,8 @@ void fillFrame(const AirState& air, const SkyLightState& sky, const ViewState& v
 bool seenFromSpace(const SkyLightConstants& sky, double altitude);
 // Whether a table of all light is as exact as evaluating every pixel: clear air without edges of
 // night in it.
-bool tableHoldsAllLight(const Plan& plan, double altitude, double sunMu);
+bool tableHoldsAllLight(const Plan& plan, const SkyLightConstants& sky, double planetRadius,
+                        const PlanetFrame& eye);
 // The numbers a sky table depends on.
 SkyTableKey skyTableKeyOf(const interface_::FrameUniforms& frame);
 void fillVolume(const VolumeState& volume, const PlannedVolume& planned, const glm::dvec3& eye,

@@ -4,8 +4,9 @@
 
 namespace welkin {
 
-// Air and fog layer; the fields of Air in shaders/model/sky/riley2004.glsl. Zero scattering or
-// extinction means that the species is absent; scale heights are > 0 in any case.
+// Air, fog layer and absorber; the fields of Air in shaders/model/sky/air.glsl. Zero scattering,
+// extinction or absorption means that the species is absent; scale heights and widths are > 0 in
+// any case.
 struct AirInput {
   double planetRadius = 6.371e6;
   double airScattering[3] = {0, 0, 0};
@@ -14,7 +15,11 @@ struct AirInput {
   double fogBaseAltitude = 0;
   double fogScaleHeight = 100;
   double fogAlbedo[3] = {1, 1, 1};
+  double absorption[3] = {0, 0, 0};
+  double absorberPeak = 25000;
+  double absorberWidth = 15000;
 
+  bool absorbs() const { return absorption[0] > 0 || absorption[1] > 0 || absorption[2] > 0; }
   bool operator==(const AirInput&) const = default;
 };
 

@@ -15,6 +15,7 @@ using uint = unsigned int;
 // The specialisation constants of the passes; on the CPU everything is compiled in.
 constexpr bool AIR_ENABLED = true;
 constexpr bool FOG_ENABLED = true;
+constexpr bool ABSORBER_ENABLED = true;
 
 inline real exp(real x) {
   return std::exp(x);

@@ -53,13 +53,13 @@ inline SkyPlaces placesOf(const Suns& mu, const Suns& viewSun, float y, float fl
     offset[s] = std::abs(mu[s]);
   }
   takeRoots(sine);
-  takeRoots(offset);
   SkyPlaces places;
   for (size_t s = 0; s < SUNS; ++s) {
     const float x = (viewSun[s] - mu[s] * y) / std::max(sine[s], 1e-4F);
     places.x[s] = std::clamp(x, -flat, flat);
-    // As sunNode(), from the middle: float keeps more digits of the share.
-    const float from = MIDDLE * std::copysign(offset[s], mu[s]);
+    // As SkyAxes::sunCoordinate(), from the middle: float keeps more digits of the share.
+    constexpr auto BEND = static_cast<float>(SkyAxes::SUN_BEND);
+    const float from = (MIDDLE * (1 + BEND)) * mu[s] / (BEND + offset[s]);
     const int node = std::min(static_cast<int>(MIDDLE + from), static_cast<int>(SUNS) - 2);
     places.node[s] = node;
     places.share[s] = std::max(from - (static_cast<float>(node) - MIDDLE), 0.0F);

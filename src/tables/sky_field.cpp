@@ -29,16 +29,16 @@ SkyColor sumOf(const SkyField::Parts& parts) {
 }  // namespace
 
 SkyField::Moments SkyField::momentsAt(double altitude, double sunMu) const {
-  const SkyNode sun = nodeAt(SkyAxes::sunCoordinate(sunMu), SUNS);
-  float pair[2 * VALUES];
+  const SunNodes sun = sunNodes(sunMu);
+  float row[4 * VALUES];
   blendAltitudes(moments_, nodeAt(SkyAxes(air_).coordinate(altitude), ALTITUDES),
-                 sun.index * VALUES, 2 * VALUES, pair);
+                 sun.first * VALUES, 4 * VALUES, row);
   Moments result{};
   for (size_t k = 0; k < MOMENTS; ++k) {
     for (size_t c = 0; c < 3; ++c) {
-      const float* value = pair + LANES * k + c;
-      result[k][c] = (1 - sun.share) * static_cast<double>(value[0]) +
-                     sun.share * static_cast<double>(value[VALUES]);
+      for (size_t n = 0; n < 4; ++n) {
+        result[k][c] += static_cast<double>(sun.weights[n] * row[n * VALUES + LANES * k + c]);
+      }
     }
   }
   return result;
@@ -63,8 +63,9 @@ SkyColor SkyField::peakIrradianceAt(double altitude, double sunMu) const {
 
 SkyColor SkyField::irradianceAt(double sunMu) const {
   const Lanes lanes = irradianceIn(irradiance_, sunMu);
-  return {static_cast<double>(lanes[0]), static_cast<double>(lanes[1]),
-          static_cast<double>(lanes[2])};
+  return {std::max(static_cast<double>(lanes[0]), 0.0),
+          std::max(static_cast<double>(lanes[1]), 0.0),
+          std::max(static_cast<double>(lanes[2]), 0.0)};
 }
 
 SkyField::Parts SkyField::momentsAlong(double altitude, double viewMu, double sunMu, double viewSun,
@@ -78,14 +79,16 @@ SkyField::Parts SkyField::momentsAlong(double altitude, double viewMu, double su
   Parts result;
   for (const SkyStep& step : plan.steps) {
     const SkyPlace place = placeAt(aim, step);
-    const SkyNode sun = sunNode(place.sunMu);
-    float pair[2 * VALUES];
-    blendAltitudes(moments_, step.high, sun.index * VALUES, 2 * VALUES, pair);
-    const SkyLight g = gatherMoments(pair, place.view, {0, sun.share});
+    const SunNodes sun = sunNodes(static_cast<double>(place.sunMu));
+    float row[4 * VALUES];
+    blendAltitudes(moments_, step.high, sun.first * VALUES, 4 * VALUES, row);
+    const SkyLight g = gatherMoments(row, place.view, {0, sun.weights});
     for (size_t c = 0; c < 3; ++c) {
       const float source =
           g.mean[c] + terms.first[c] * g.along[c] + terms.second[c] * (3 * g.square[c] - g.mean[c]);
-      result.air[c] += static_cast<double>(step.air[c] * RAYLEIGH * (g.mean[c] + g.square[c]) +
+      // Cubics may run below zero in the dark.
+      const float even = std::max(g.mean[c] + g.square[c], 0.0F);
+      result.air[c] += static_cast<double>(step.air[c] * RAYLEIGH * even +
                                            step.fog[c] * ISOTROPIC * std::max(source, 0.0F));
     }
   }

@@ -43,7 +43,8 @@ class LightAtAltitude {
         altitude_(altitude),
         angularRadius_(angularRadius),
         airLayer_(altitude, 0, air.airScaleHeight, air.planetRadius),
-        fogLayer_(altitude, air.fogBaseAltitude, air.fogScaleHeight, air.planetRadius) {
+        fogLayer_(altitude, air.fogBaseAltitude, air.fogScaleHeight, air.planetRadius),
+        absorbs_(air.absorption.x > 0 || air.absorption.y > 0 || air.absorption.z > 0) {
     // Sine of the height above the horizon from which lightVisibility() is 1 and below which, on
     // the other side, it is 0, with room for rounding. Above half a radian it has its own rules.
     const double edge = 1.01 * angularRadius + 1e-4;
@@ -64,14 +65,22 @@ class LightAtAltitude {
       count += static_cast<double>(mu[s]) < dark_ ? size_t{0} : size_t{1};
     }
     // Loops of their own, so that one light's chain of operations does not wait for another's.
-    std::array<model::f64::vec2, SkyField::SUNS> columns;
+    std::array<model::f64::vec3, SkyField::SUNS> columns;
     for (size_t i = 0; i < count; ++i) {
       columns[i].x = airLayer_.column(static_cast<double>(mu[lit[i]]));
       columns[i].y = 0;
+      columns[i].z = 0;
     }
     if (air_.fogExtinction > 0) {
       for (size_t i = 0; i < count; ++i) {
         columns[i].y = fogLayer_.column(static_cast<double>(mu[lit[i]]));
+      }
+    }
+    if (absorbs_) {
+      for (size_t i = 0; i < count; ++i) {
+        columns[i].z =
+            model::f64::absorberColumnTo(altitude_, static_cast<double>(mu[lit[i]]),
+                                         air_.planetRadius, air_.absorberPeak, air_.absorberWidth);
       }
     }
     for (size_t i = 0; i < count; ++i) {
@@ -93,6 +102,7 @@ class LightAtAltitude {
   double angularRadius_;
   LayerLight airLayer_;
   LayerLight fogLayer_;
+  bool absorbs_;
   // Cosines below and above which the light is hidden and seen as a whole.
   double dark_ = -2;
   double bright_ = 2;

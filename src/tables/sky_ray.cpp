@@ -64,9 +64,11 @@ void planRay(const AirInput& input, const SkyAxes& axes, double altitude, double
     before = -r * viewMu -
              std::sqrt(std::max((rTop - path.lowestRadius) * (rTop + path.lowestRadius), 0.0));
   }
-  double columns[2] = {0, 0};
+  double columns[3] = {0, 0, 0};
   const auto depthOf = [&](size_t c) {
-    return air.airScattering[static_cast<int>(c)] * columns[0] + air.fogExtinction * columns[1];
+    const auto k = static_cast<int>(c);
+    return air.airScattering[k] * columns[0] + air.fogExtinction * columns[1] +
+           air.absorption[k] * columns[2];
   };
   if (path.reach > 0) {
     AirPoint near = airPoint(air, path, 0.0);
@@ -80,10 +82,10 @@ void planRay(const AirInput& input, const SkyAxes& axes, double altitude, double
       for (size_t c = 0; c < 3; ++c) {
         start[c] = depthOf(c);
       }
-      const double middleDepth =
-          air.airScattering.y * span.air.column + air.fogExtinction * span.fog.column;
+      const double middleDepth = depthOfColumns(air, columnsOf(span)).y;
       columns[0] += span.air.column;
       columns[1] += span.fog.column;
+      columns[2] += span.absorber;
       for (size_t c = 0; c < 3; ++c) {
         own[c] = depthOf(c) - start[c];
         const double seen =

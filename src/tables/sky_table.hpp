@@ -47,12 +47,15 @@ class SkyAxes {
     }
     return 0.5 * (low + high);
   }
+  // Dense about the horizontal, 1 degree apart in twilight.
+  static constexpr double SUN_BEND = 0.25;
   static double sunCoordinate(double mu) {
-    return 0.5 + 0.5 * std::copysign(std::sqrt(std::min(std::abs(mu), 1.0)), mu);
+    const double size = std::min(std::abs(mu), 1.0);
+    return 0.5 + std::copysign(0.5 * (1 + SUN_BEND) * size / (SUN_BEND + size), mu);
   }
   static double sunAt(double coordinate_) {
     const double q = 2 * coordinate_ - 1;
-    return q * std::abs(q);
+    return SUN_BEND * q / (1 + SUN_BEND - std::abs(q));
   }
 
  private:
@@ -98,13 +101,43 @@ struct SkyLight {
   Lanes square;  // of L (v w)^2
 };
 
-inline SkyLight gatherMoments(const float* row, const SkyDirection& v, const SkyNode& sun) {
-  const float* a = row + sun.index * VALUES;
-  const float* b = a + VALUES;
-  const auto t = static_cast<float>(sun.share);
-  float m[VALUES];
-  for (size_t i = 0; i < VALUES; ++i) {
-    m[i] = (1 - t) * a[i] + t * b[i];
+// Where broken lines do: between orders of scattering, whose sum they smooth.
+inline SkyNode sunNode(float mu) {
+  return nodeAt(SkyAxes::sunCoordinate(static_cast<double>(mu)), SkyField::SUNS);
+}
+
+// A sun among four nodes in a row: light of twilight falls e-fold from one to the next, and broken
+// lines through it would show.
+struct SunNodes {
+  size_t first;
+  std::array<float, 4> weights;
+};
+
+// Cubic through the nodes with the slopes of their neighbours (Catmull-Rom), parabolas at the ends.
+inline SunNodes sunNodes(double mu) {
+  const SkyNode node = nodeAt(SkyAxes::sunCoordinate(mu), SkyField::SUNS);
+  const auto first = std::clamp(node.index, size_t{1}, SkyField::SUNS - 3) - 1;
+  const auto t = static_cast<float>(node.share);
+  const float u = 1 - t;
+  SunNodes nodes{first, {}};
+  if (node.index == first + 1) {
+    nodes.weights = {-0.5F * t * u * u, u * (1 + t - 1.5F * t * t), t * (1 + u - 1.5F * u * u),
+                     -0.5F * u * t * t};
+  } else if (node.index < first + 1) {
+    nodes.weights = {0.5F * u * (2 - t), t * (2 - t), -0.5F * t * u, 0};
+  } else {
+    nodes.weights = {0, -0.5F * t * u, u * (1 + t), 0.5F * t * (1 + t)};
+  }
+  return nodes;
+}
+
+inline SkyLight gatherMoments(const float* row, const SkyDirection& v, const SunNodes& sun) {
+  float m[VALUES] = {};
+  for (size_t n = 0; n < 4; ++n) {
+    const float* a = row + (sun.first + n) * VALUES;
+    for (size_t i = 0; i < VALUES; ++i) {
+      m[i] += sun.weights[n] * a[i];
+    }
   }
   const float xx = v.x * v.x;
   const float yy = v.y * v.y;
@@ -137,17 +170,13 @@ inline FogTerms fogTerms(const std::array<SkyColor, 2>& chi) {
 constexpr auto RAYLEIGH = static_cast<float>(3 / (16 * std::numbers::pi));
 constexpr auto ISOTROPIC = static_cast<float>(1 / (4 * std::numbers::pi));
 
-inline SkyNode sunNode(float mu) {
-  return nodeAt(SkyAxes::sunCoordinate(static_cast<double>(mu)), SkyField::SUNS);
-}
-
 inline Lanes irradianceIn(const std::vector<float>& rows, double sunMu) {
-  const SkyNode node = nodeAt(SkyAxes::sunCoordinate(sunMu), SkyField::SUNS);
-  Lanes result;
-  for (size_t c = 0; c < LANES; ++c) {
-    const float* row = rows.data() + LANES * node.index + c;
-    const auto t = static_cast<float>(node.share);
-    result[c] = (1 - t) * row[0] + t * row[LANES];
+  const SunNodes sun = sunNodes(sunMu);
+  Lanes result{};
+  for (size_t n = 0; n < 4; ++n) {
+    for (size_t c = 0; c < LANES; ++c) {
+      result[c] += sun.weights[n] * rows[LANES * (sun.first + n) + c];
+    }
   }
   return result;
 }

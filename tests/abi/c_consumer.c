@@ -4,6 +4,7 @@
  * and those that need one must say so. Counts, allocations and handles are checked on the way.
  */
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -92,6 +93,44 @@ static int countBad(const double* values, int count) {
     bad += !(isfinite(values[i]) && values[i] >= 0.0);
   }
   return bad;
+}
+
+/* Callers of the first headers: shorter structures, what they lack being the default. */
+static void firstHeaders(WlkContext context) {
+  const uint32_t lightSize = (uint32_t)offsetof(WlkLight, limbDarkening);
+  const uint32_t fogSize = (uint32_t)offsetof(WlkFog, medium);
+  WlkLight light;
+  WlkFog fog;
+  memset(&light, 0x5a, sizeof light);
+  memset(&fog, 0x5a, sizeof fog);
+  EXPECT(WLK_SUCCESS, wlkInitStruct(WLK_STRUCT_LIGHT, lightSize, &light));
+  EXPECT(WLK_SUCCESS, wlkInitStruct(WLK_STRUCT_FOG, fogSize, &fog));
+  REQUIRE(light.structSize == lightSize && fog.structSize == fogSize);
+  REQUIRE(((unsigned char*)&light)[lightSize] == 0x5a);
+  REQUIRE(((unsigned char*)&fog)[fogSize] == 0x5a);
+  EXPECT(WLK_SUCCESS, wlkSetLights(context, 1, lightSize, &light));
+  EXPECT(WLK_SUCCESS, wlkSetFog(context, &fog));
+}
+
+static void atmosphere(WlkContext context) {
+  WlkAtmospherePreset preset;
+  WlkLight moon;
+  const float toMoon[3] = {0.6f, 0.8f, 0.0f};
+  INIT(WLK_STRUCT_ATMOSPHERE_PRESET, preset);
+  INIT(WLK_STRUCT_LIGHT, moon);
+  EXPECT(WLK_ERROR_INVALID_ARGUMENT, wlkGetAtmospherePreset(4, &preset));
+  EXPECT(WLK_SUCCESS, wlkGetAtmospherePreset(WLK_ATMOSPHERE_MARS, &preset));
+  REQUIRE(preset.sun.sType == WLK_STRUCT_LIGHT && preset.sun.structSize == sizeof preset.sun);
+  EXPECT(WLK_SUCCESS, wlkSetPlanet(context, &preset.planet));
+  EXPECT(WLK_SUCCESS, wlkSetSky(context, &preset.sky));
+  EXPECT(WLK_SUCCESS, wlkSetAbsorber(context, &preset.absorber));
+  EXPECT(WLK_SUCCESS, wlkCreateMedium(context, &preset.hazeMedium, &preset.haze.medium));
+  EXPECT(WLK_SUCCESS, wlkSetFog(context, &preset.haze));
+  EXPECT(WLK_SUCCESS, wlkDestroyMedium(context, preset.haze.medium));
+  EXPECT(WLK_ERROR_INVALID_HANDLE, wlkSetFog(context, &preset.haze));
+  EXPECT(WLK_SUCCESS, wlkInitMoon(preset.sun.direction, toMoon, preset.sun.irradiance, &moon));
+  EXPECT(WLK_SUCCESS, wlkSetLights(context, 1, sizeof moon, &moon));
+  EXPECT(WLK_SUCCESS, wlkSetAbsorber(context, NULL));
 }
 
 static void scene(WlkContext context) {
@@ -248,6 +287,8 @@ int main(void) {
     return 1;
   }
   REQUIRE(liveBlocks > 0);
+  firstHeaders(context);
+  atmosphere(context);
   scene(context);
   queries(context);
   objects(context);

@@ -91,11 +91,11 @@ static void errorsNameTheField() {
 
 int main() {
   makeSetsTheHead<WlkErrorInfo, WlkContextInfo, WlkHeadlessInfo, WlkCapabilities, WlkPlanet, WlkSky,
-                  WlkLight, WlkFog, WlkMediumInfo, WlkMediumOptics, WlkVolumeInfo, WlkVolumeUpload,
-                  WlkViewInfo, WlkCamera, WlkQuality, WlkFrameInfo, WlkHeadlessTargets,
-                  WlkImageData, WlkFrameStats, WlkRayBatch, WlkPhaseQuery, WlkSkyMapQuery,
-                  WlkVulkanDeviceInfo, WlkVulkanRequirements, WlkVulkanImage,
-                  WlkVulkanViewTargets>();
+                  WlkLight, WlkFog, WlkAbsorber, WlkAtmospherePreset, WlkMediumInfo,
+                  WlkMediumOptics, WlkVolumeInfo, WlkVolumeUpload, WlkViewInfo, WlkCamera,
+                  WlkQuality, WlkFrameInfo, WlkHeadlessTargets, WlkImageData, WlkFrameStats,
+                  WlkRayBatch, WlkPhaseQuery, WlkSkyMapQuery, WlkVulkanDeviceInfo,
+                  WlkVulkanRequirements, WlkVulkanImage, WlkVulkanViewTargets>();
   movesOnly<welkin::Context>();
   movesOnly<welkin::Medium>();
   movesOnly<welkin::Volume>();

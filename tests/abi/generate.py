@@ -27,6 +27,8 @@ BANNER = """/* SPDX-License-Identifier: MIT
 
 #define SIZE(type, size) _Static_assert(sizeof(type) == (size), "size of " #type)
 #define AT(type, field, offset) _Static_assert(offsetof(type, field) == (offset), #type "::" #field)
+#define STARTS(type) (offsetof(type, sType) == 0 && offsetof(type, structSize) == 4)
+#define HEAD(type) _Static_assert(STARTS(type) && offsetof(type, next) == 8, "head of " #type)
 #define VALUE(name, value) _Static_assert((long long)(name) == (value), #name)
 """
 
@@ -65,6 +67,9 @@ def layout(text):
              'int main(void) {']
     for name, fields in structs(text):
         lines.append(f'printf("\\nSIZE({name}, %zu);\\n", sizeof({name}));')
+        if fields[:3] == ["sType", "structSize", "next"]:
+            lines.append(f'printf("HEAD({name});\\n");')
+            fields = fields[3:]
         for field in fields:
             lines.append(f'printf("AT({name}, {field}, %zu);\\n", offsetof({name}, {field}));')
     lines.append('puts("");')

@@ -8,12 +8,12 @@
 
 #define SIZE(type, size) _Static_assert(sizeof(type) == (size), "size of " #type)
 #define AT(type, field, offset) _Static_assert(offsetof(type, field) == (offset), #type "::" #field)
+#define STARTS(type) (offsetof(type, sType) == 0 && offsetof(type, structSize) == 4)
+#define HEAD(type) _Static_assert(STARTS(type) && offsetof(type, next) == 8, "head of " #type)
 #define VALUE(name, value) _Static_assert((long long)(name) == (value), #name)
 
 SIZE(WlkErrorInfo, 352);
-AT(WlkErrorInfo, sType, 0);
-AT(WlkErrorInfo, structSize, 4);
-AT(WlkErrorInfo, next, 8);
+HEAD(WlkErrorInfo);
 AT(WlkErrorInfo, result, 16);
 AT(WlkErrorInfo, structType, 20);
 AT(WlkErrorInfo, vkResult, 24);
@@ -36,9 +36,7 @@ AT(WlkAllocator, allocate, 8);
 AT(WlkAllocator, release, 16);
 
 SIZE(WlkContextInfo, 64);
-AT(WlkContextInfo, sType, 0);
-AT(WlkContextInfo, structSize, 4);
-AT(WlkContextInfo, next, 8);
+HEAD(WlkContextInfo);
 AT(WlkContextInfo, apiVersion, 16);
 AT(WlkContextInfo, maxFramesInFlight, 20);
 AT(WlkContextInfo, allocator, 24);
@@ -46,16 +44,12 @@ AT(WlkContextInfo, log, 48);
 AT(WlkContextInfo, logUser, 56);
 
 SIZE(WlkHeadlessInfo, 32);
-AT(WlkHeadlessInfo, sType, 0);
-AT(WlkHeadlessInfo, structSize, 4);
-AT(WlkHeadlessInfo, next, 8);
+HEAD(WlkHeadlessInfo);
 AT(WlkHeadlessInfo, flags, 16);
 AT(WlkHeadlessInfo, deviceName, 24);
 
 SIZE(WlkCapabilities, 296);
-AT(WlkCapabilities, sType, 0);
-AT(WlkCapabilities, structSize, 4);
-AT(WlkCapabilities, next, 8);
+HEAD(WlkCapabilities);
 AT(WlkCapabilities, mode, 16);
 AT(WlkCapabilities, vulkanVersion, 20);
 AT(WlkCapabilities, maxLights, 24);
@@ -65,9 +59,7 @@ AT(WlkCapabilities, reserved0, 36);
 AT(WlkCapabilities, deviceName, 40);
 
 SIZE(WlkPlanet, 72);
-AT(WlkPlanet, sType, 0);
-AT(WlkPlanet, structSize, 4);
-AT(WlkPlanet, next, 8);
+HEAD(WlkPlanet);
 AT(WlkPlanet, seaLevelPoint, 16);
 AT(WlkPlanet, up, 40);
 AT(WlkPlanet, radius, 52);
@@ -75,36 +67,38 @@ AT(WlkPlanet, groundAlbedo, 56);
 AT(WlkPlanet, reserved0, 68);
 
 SIZE(WlkSky, 32);
-AT(WlkSky, sType, 0);
-AT(WlkSky, structSize, 4);
-AT(WlkSky, next, 8);
+HEAD(WlkSky);
 AT(WlkSky, rayleighScattering, 16);
 AT(WlkSky, scaleHeight, 28);
 
-SIZE(WlkLight, 48);
-AT(WlkLight, sType, 0);
-AT(WlkLight, structSize, 4);
-AT(WlkLight, next, 8);
+SIZE(WlkAbsorber, 40);
+HEAD(WlkAbsorber);
+AT(WlkAbsorber, extinction, 16);
+AT(WlkAbsorber, peakAltitude, 28);
+AT(WlkAbsorber, halfWidth, 32);
+AT(WlkAbsorber, reserved0, 36);
+
+SIZE(WlkLight, 72);
+HEAD(WlkLight);
 AT(WlkLight, direction, 16);
 AT(WlkLight, angularDiameter, 28);
 AT(WlkLight, irradiance, 32);
 AT(WlkLight, reserved0, 44);
+AT(WlkLight, limbDarkening, 48);
+AT(WlkLight, litFrom, 60);
 
-SIZE(WlkFog, 48);
-AT(WlkFog, sType, 0);
-AT(WlkFog, structSize, 4);
-AT(WlkFog, next, 8);
+SIZE(WlkFog, 56);
+HEAD(WlkFog);
 AT(WlkFog, dropletDiameter_um, 16);
 AT(WlkFog, extinction, 20);
 AT(WlkFog, baseAltitude, 24);
 AT(WlkFog, scaleHeight, 28);
 AT(WlkFog, singleScatteringAlbedo, 32);
 AT(WlkFog, phaseModel, 44);
+AT(WlkFog, medium, 48);
 
 SIZE(WlkMediumInfo, 80);
-AT(WlkMediumInfo, sType, 0);
-AT(WlkMediumInfo, structSize, 4);
-AT(WlkMediumInfo, next, 8);
+HEAD(WlkMediumInfo);
 AT(WlkMediumInfo, particle, 16);
 AT(WlkMediumInfo, phaseModel, 20);
 AT(WlkMediumInfo, diameter_um, 24);
@@ -118,10 +112,17 @@ AT(WlkMediumInfo, userPhase, 64);
 AT(WlkMediumInfo, userCount, 72);
 AT(WlkMediumInfo, reserved0, 76);
 
+SIZE(WlkAtmospherePreset, 368);
+HEAD(WlkAtmospherePreset);
+AT(WlkAtmospherePreset, planet, 16);
+AT(WlkAtmospherePreset, sky, 88);
+AT(WlkAtmospherePreset, absorber, 120);
+AT(WlkAtmospherePreset, haze, 160);
+AT(WlkAtmospherePreset, hazeMedium, 216);
+AT(WlkAtmospherePreset, sun, 296);
+
 SIZE(WlkMediumOptics, 96);
-AT(WlkMediumOptics, sType, 0);
-AT(WlkMediumOptics, structSize, 4);
-AT(WlkMediumOptics, next, 8);
+HEAD(WlkMediumOptics);
 AT(WlkMediumOptics, extinctionEfficiency, 16);
 AT(WlkMediumOptics, effectiveRadius_um, 28);
 AT(WlkMediumOptics, extinctionCrossSection, 32);
@@ -136,9 +137,7 @@ AT(WlkVolumeField, extinctionScale, 8);
 AT(WlkVolumeField, reserved0, 12);
 
 SIZE(WlkVolumeInfo, 144);
-AT(WlkVolumeInfo, sType, 0);
-AT(WlkVolumeInfo, structSize, 4);
-AT(WlkVolumeInfo, next, 8);
+HEAD(WlkVolumeInfo);
 AT(WlkVolumeInfo, size, 16);
 AT(WlkVolumeInfo, fieldCount, 28);
 AT(WlkVolumeInfo, fieldStride, 32);
@@ -147,9 +146,7 @@ AT(WlkVolumeInfo, fields, 40);
 AT(WlkVolumeInfo, worldFromVolume, 48);
 
 SIZE(WlkVolumeUpload, 80);
-AT(WlkVolumeUpload, sType, 0);
-AT(WlkVolumeUpload, structSize, 4);
-AT(WlkVolumeUpload, next, 8);
+HEAD(WlkVolumeUpload);
 AT(WlkVolumeUpload, field, 16);
 AT(WlkVolumeUpload, format, 20);
 AT(WlkVolumeUpload, offset, 24);
@@ -159,29 +156,25 @@ AT(WlkVolumeUpload, slicePitch, 56);
 AT(WlkVolumeUpload, data, 64);
 AT(WlkVolumeUpload, dataSize, 72);
 
-SIZE(WlkViewInfo, 40);
-AT(WlkViewInfo, sType, 0);
-AT(WlkViewInfo, structSize, 4);
-AT(WlkViewInfo, next, 8);
+SIZE(WlkViewInfo, 48);
+HEAD(WlkViewInfo);
 AT(WlkViewInfo, width, 16);
 AT(WlkViewInfo, height, 20);
 AT(WlkViewInfo, composite, 24);
 AT(WlkViewInfo, targetFormat, 28);
 AT(WlkViewInfo, layers, 32);
+AT(WlkViewInfo, color, 40);
+AT(WlkViewInfo, reserved0, 44);
 
 SIZE(WlkCamera, 144);
-AT(WlkCamera, sType, 0);
-AT(WlkCamera, structSize, 4);
-AT(WlkCamera, next, 8);
+HEAD(WlkCamera);
 AT(WlkCamera, position, 16);
 AT(WlkCamera, viewFromWorld, 40);
 AT(WlkCamera, preExposure, 76);
 AT(WlkCamera, clipFromView, 80);
 
 SIZE(WlkQuality, 48);
-AT(WlkQuality, sType, 0);
-AT(WlkQuality, structSize, 4);
-AT(WlkQuality, next, 8);
+HEAD(WlkQuality);
 AT(WlkQuality, level, 16);
 AT(WlkQuality, sliceCount, 20);
 AT(WlkQuality, batchSize, 24);
@@ -191,23 +184,17 @@ AT(WlkQuality, scattering, 36);
 AT(WlkQuality, flags, 40);
 
 SIZE(WlkFrameInfo, 32);
-AT(WlkFrameInfo, sType, 0);
-AT(WlkFrameInfo, structSize, 4);
-AT(WlkFrameInfo, next, 8);
+HEAD(WlkFrameInfo);
 AT(WlkFrameInfo, frameIndex, 16);
 AT(WlkFrameInfo, completedFrameIndex, 24);
 
 SIZE(WlkHeadlessTargets, 32);
-AT(WlkHeadlessTargets, sType, 0);
-AT(WlkHeadlessTargets, structSize, 4);
-AT(WlkHeadlessTargets, next, 8);
+HEAD(WlkHeadlessTargets);
 AT(WlkHeadlessTargets, color, 16);
 AT(WlkHeadlessTargets, depth, 24);
 
 SIZE(WlkImageData, 40);
-AT(WlkImageData, sType, 0);
-AT(WlkImageData, structSize, 4);
-AT(WlkImageData, next, 8);
+HEAD(WlkImageData);
 AT(WlkImageData, image, 16);
 AT(WlkImageData, reserved0, 20);
 AT(WlkImageData, data, 24);
@@ -224,9 +211,7 @@ AT(WlkPassStats, invocations, 88);
 AT(WlkPassStats, gpuTime_ns, 96);
 
 SIZE(WlkFrameStats, 72);
-AT(WlkFrameStats, sType, 0);
-AT(WlkFrameStats, structSize, 4);
-AT(WlkFrameStats, next, 8);
+HEAD(WlkFrameStats);
 AT(WlkFrameStats, frameIndex, 16);
 AT(WlkFrameStats, dispatches, 24);
 AT(WlkFrameStats, draws, 28);
@@ -238,9 +223,7 @@ AT(WlkFrameStats, hostMemory, 56);
 AT(WlkFrameStats, nonFinitePixels, 64);
 
 SIZE(WlkErrorEstimate, 56);
-AT(WlkErrorEstimate, sType, 0);
-AT(WlkErrorEstimate, structSize, 4);
-AT(WlkErrorEstimate, next, 8);
+HEAD(WlkErrorEstimate);
 AT(WlkErrorEstimate, relativeError, 16);
 AT(WlkErrorEstimate, dominant, 20);
 AT(WlkErrorEstimate, part, 24);
@@ -251,9 +234,7 @@ AT(WlkRay, direction, 24);
 AT(WlkRay, length, 48);
 
 SIZE(WlkRayBatch, 40);
-AT(WlkRayBatch, sType, 0);
-AT(WlkRayBatch, structSize, 4);
-AT(WlkRayBatch, next, 8);
+HEAD(WlkRayBatch);
 AT(WlkRayBatch, count, 16);
 AT(WlkRayBatch, stride, 20);
 AT(WlkRayBatch, rays, 24);
@@ -261,17 +242,13 @@ AT(WlkRayBatch, maxOrder, 32);
 AT(WlkRayBatch, reserved0, 36);
 
 SIZE(WlkSkyMapQuery, 48);
-AT(WlkSkyMapQuery, sType, 0);
-AT(WlkSkyMapQuery, structSize, 4);
-AT(WlkSkyMapQuery, next, 8);
+HEAD(WlkSkyMapQuery);
 AT(WlkSkyMapQuery, position, 16);
 AT(WlkSkyMapQuery, size, 40);
 AT(WlkSkyMapQuery, maxOrder, 44);
 
 SIZE(WlkPhaseQuery, 56);
-AT(WlkPhaseQuery, sType, 0);
-AT(WlkPhaseQuery, structSize, 4);
-AT(WlkPhaseQuery, next, 8);
+HEAD(WlkPhaseQuery);
 AT(WlkPhaseQuery, medium, 16);
 AT(WlkPhaseQuery, orderKind, 24);
 AT(WlkPhaseQuery, order, 28);
@@ -281,9 +258,7 @@ AT(WlkPhaseQuery, reserved0, 44);
 AT(WlkPhaseQuery, scatteringAngle, 48);
 
 SIZE(WlkVulkanRequirements, 64);
-AT(WlkVulkanRequirements, sType, 0);
-AT(WlkVulkanRequirements, structSize, 4);
-AT(WlkVulkanRequirements, next, 8);
+HEAD(WlkVulkanRequirements);
 AT(WlkVulkanRequirements, apiVersion, 16);
 AT(WlkVulkanRequirements, queueFlags, 20);
 AT(WlkVulkanRequirements, synchronization2, 24);
@@ -298,9 +273,7 @@ AT(WlkVulkanRequirements, volumeUsage, 56);
 AT(WlkVulkanRequirements, fragmentStoresAndAtomics, 60);
 
 SIZE(WlkVulkanDeviceInfo, 72);
-AT(WlkVulkanDeviceInfo, sType, 0);
-AT(WlkVulkanDeviceInfo, structSize, 4);
-AT(WlkVulkanDeviceInfo, next, 8);
+HEAD(WlkVulkanDeviceInfo);
 AT(WlkVulkanDeviceInfo, getInstanceProcAddr, 16);
 AT(WlkVulkanDeviceInfo, instance, 24);
 AT(WlkVulkanDeviceInfo, physicalDevice, 32);
@@ -318,9 +291,7 @@ AT(WlkVulkanImageState, stages, 8);
 AT(WlkVulkanImageState, access, 16);
 
 SIZE(WlkVulkanImage, 88);
-AT(WlkVulkanImage, sType, 0);
-AT(WlkVulkanImage, structSize, 4);
-AT(WlkVulkanImage, next, 8);
+HEAD(WlkVulkanImage);
 AT(WlkVulkanImage, image, 16);
 AT(WlkVulkanImage, format, 24);
 AT(WlkVulkanImage, width, 28);
@@ -330,9 +301,7 @@ AT(WlkVulkanImage, before, 40);
 AT(WlkVulkanImage, after, 64);
 
 SIZE(WlkVulkanViewTargets, 56);
-AT(WlkVulkanViewTargets, sType, 0);
-AT(WlkVulkanViewTargets, structSize, 4);
-AT(WlkVulkanViewTargets, next, 8);
+HEAD(WlkVulkanViewTargets);
 AT(WlkVulkanViewTargets, depth, 16);
 AT(WlkVulkanViewTargets, colorInput, 24);
 AT(WlkVulkanViewTargets, color, 32);
@@ -366,6 +335,8 @@ VALUE(WLK_STRUCT_PLANET, 10);
 VALUE(WLK_STRUCT_SKY, 11);
 VALUE(WLK_STRUCT_LIGHT, 12);
 VALUE(WLK_STRUCT_FOG, 13);
+VALUE(WLK_STRUCT_ABSORBER, 14);
+VALUE(WLK_STRUCT_ATMOSPHERE_PRESET, 15);
 VALUE(WLK_STRUCT_MEDIUM_INFO, 20);
 VALUE(WLK_STRUCT_VOLUME_INFO, 21);
 VALUE(WLK_STRUCT_VOLUME_UPLOAD, 22);
@@ -405,6 +376,10 @@ VALUE(WLK_PARTICLE_SNOW, 6);
 VALUE(WLK_PARTICLE_AIR, 7);
 VALUE(WLK_PARTICLE_HENYEY_GREENSTEIN, 8);
 VALUE(WLK_PARTICLE_USER, 9);
+VALUE(WLK_ATMOSPHERE_EARTH_CLEAR, 0);
+VALUE(WLK_ATMOSPHERE_EARTH_HAZY, 1);
+VALUE(WLK_ATMOSPHERE_EARTH_POLLUTED, 2);
+VALUE(WLK_ATMOSPHERE_MARS, 3);
 VALUE(WLK_FORMAT_R32_FLOAT, 1);
 VALUE(WLK_FORMAT_R16_FLOAT, 2);
 VALUE(WLK_FORMAT_R8_UNORM, 3);
@@ -420,6 +395,8 @@ VALUE(WLK_LAYER_ALL, 31);
 VALUE(WLK_TARGET_RGBA16_FLOAT, 1);
 VALUE(WLK_TARGET_RGBA32_FLOAT, 2);
 VALUE(WLK_TARGET_B10G11R11_FLOAT, 3);
+VALUE(WLK_COLOR_WAVELENGTHS, 0);
+VALUE(WLK_COLOR_SRGB, 1);
 VALUE(WLK_QUALITY_LOW, 0);
 VALUE(WLK_QUALITY_MEDIUM, 1);
 VALUE(WLK_QUALITY_HIGH, 2);

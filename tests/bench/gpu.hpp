@@ -8,16 +8,18 @@
 #include <welkin/welkin_vulkan.h>
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "support/test_device.hpp"
+
 namespace bench {
 
-// Throws std::runtime_error.
-void check(VkResult result, const char* call);
+using support::check;
 
 struct GpuImage {
   VkImage handle = VK_NULL_HANDLE;
@@ -53,8 +55,8 @@ class Gpu {
   Gpu(const Gpu&) = delete;
   Gpu& operator=(const Gpu&) = delete;
 
-  VkDevice handle() const { return device_; }
-  const VkPhysicalDeviceProperties& properties() const { return properties_; }
+  VkDevice handle() const { return device_.handle(); }
+  const VkPhysicalDeviceProperties& properties() const { return device_.properties(); }
   // Of the driver.
   std::string driver() const;
   WlkVulkanDeviceInfo info() const;
@@ -69,30 +71,16 @@ class Gpu {
   double run(const std::function<void(VkCommandBuffer)>& record);
 
   // Messages of the validation layer.
-  const std::vector<std::string>& messages() const { return messages_; }
+  const std::vector<std::string>& messages() const { return device_.messages(); }
 
  private:
-  void makeInstance(bool validation);
-  void makeDevice();
   GpuBuffer staging(VkDeviceSize size);
-  VkDeviceMemory allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags flags);
-  void destroy();
 
-  std::vector<std::string> messages_;
-  VkInstance instance_ = VK_NULL_HANDLE;
-  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
-  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
-  VkPhysicalDeviceProperties properties_{};
-  uint32_t family_ = 0;
-  VkDevice device_ = VK_NULL_HANDLE;
-  VkQueue queue_ = VK_NULL_HANDLE;
-  VkCommandPool pool_ = VK_NULL_HANDLE;
-  VkCommandBuffer commands_ = VK_NULL_HANDLE;
-  VkFence fence_ = VK_NULL_HANDLE;
+  support::TestDevice device_;
   VkQueryPool queries_ = VK_NULL_HANDLE;
-  std::vector<GpuImage> images_;
-  std::vector<GpuBuffer> buffers_;
-  std::vector<VkDeviceMemory> memory_;
+  std::deque<support::Image> images_;
+  std::vector<VkImageView> views_;
+  std::deque<support::Buffer> buffers_;
   GpuBuffer staging_;
   VkDeviceSize stagingSize_ = 0;
 };

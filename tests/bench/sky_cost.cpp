@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // welkin_sky_cost OUT.json: time of a frame of sky and aerial perspective, and its error against
-// Monte Carlo, of the library and of the tables that game engines have in common. Both draw on one
-// device, over the same depth image, and are timed from recording to the end of the wait. Prints a
-// table in Markdown.
+// Monte Carlo, of the library, of the tables that game engines have in common, and of forms that
+// every pixel computes for itself. All draw on one device, over the same depth image, and are timed
+// from recording to the end of the wait. Prints a table in Markdown.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -13,6 +13,7 @@
 #include "bench/front_report.hpp"
 #include "bench/front_timing.hpp"
 #include "bench/lut_sky.hpp"
+#include "bench/sky_forms.hpp"
 #include "bench/sky_truth.hpp"
 #include "bench/welkin_sky.hpp"
 
@@ -63,9 +64,13 @@ LutScene lutScene(const SkyCase& one, const Options& options) {
   return scene;
 }
 
+/// Light that a method draws.
+enum class Orders { NONE, ONE, ALL };
+
 /// A way to draw the picture, as often as there are copies of it in memory.
 struct Method {
   std::string name;
+  Orders orders;
   std::vector<std::function<void(VkCommandBuffer)>> record;
   std::function<GpuCounts()> counts;  // of the first copy's last frame
 };
@@ -87,6 +92,12 @@ Ordered errorsJson(const SkyErrors& errors) {
           {"transmittance", summary(errors.transmittance)}};
 }
 
+/// Against light of all orders and, of methods that draw the first alone, against that.
+struct Errors {
+  SkyErrors all;
+  SkyErrors single;
+};
+
 /// One case: its methods timed in turn, and the error of each.
 class Study {
  public:
@@ -107,6 +118,7 @@ class Study {
     const std::vector<SkyTruth> truths = options_.truth.empty()
                                              ? skyTruth(one_, pixels, options_.paths, options_.seed)
                                              : readTruth(options_.truth, one_, pixels);
+    const SingleTruth single = singleTruth(one_, pixels, truths);
     paint(SURFACE_COLOR);
     const std::vector<Timing> timings = time();
     Ordered rows = Ordered::array();
@@ -114,9 +126,18 @@ class Study {
     for (size_t i = 0; i < methods_.size(); ++i) {
       const std::vector<float> black = picture(i, 0);
       const std::vector<float> white = picture(i, 1);
-      const SkyErrors errors =
-          errorsOf(black, white, options_.width, double{FROXEL_RANGE}, pixels, truths);
-      all[i].add(errors);
+      const auto against = [&](const std::vector<SkyPixel>& seen,
+                               const std::vector<SkyTruth>& truth) {
+        return errorsOf(black, white, options_.width, double{FROXEL_RANGE}, seen, truth);
+      };
+      Errors errors;
+      if (methods_[i].orders != Orders::NONE) {
+        errors.all = against(pixels, truths);
+      }
+      if (methods_[i].orders == Orders::ONE) {
+        errors.single = against(single.pixels, single.truths);
+      }
+      all[i].add(errors.all);
       rows.push_back(row(methods_[i], timings[i], errors));
       printRow(methods_[i].name, timings[i], errors);
     }
@@ -148,12 +169,16 @@ class Study {
     LutSky* published = addLut(targets, SAMPLE_PUBLISHED, "lut");
     // The same tables, two of which the frames before left.
     addMethod(
-        "lut-kept", [published](VkCommandBuffer c) { published->record(c, LutSky::SKY_VIEW); },
+        "lut-kept", Orders::ALL,
+        [published](VkCommandBuffer c) { published->record(c, LutSky::SKY_VIEW); },
         [published] { return published->counts(); });
     addLut(targets, SAMPLE_BETTER, "lut-midpoint");
     addWelkin(targets, WLK_SCATTERING_DEFAULT, true, "welkin");
     addWelkin(targets, WLK_SCATTERING_DEFAULT, false, "welkin-kept");
     addWelkin(targets, WLK_SCATTERING_SINGLE, false, "welkin-single");
+    addForm(targets, SkyForm::NONE, Orders::NONE, "none");
+    addForm(targets, SkyForm::FLAT, Orders::ONE, "flat");
+    addForm(targets, SkyForm::SEGMENTS, Orders::ONE, "segments");
   }
 
   LutSky* addLut(const GpuTargets& targets, float sampleAt, const char* name) {
@@ -162,7 +187,8 @@ class Study {
     LutSky* lut = luts_.back().get();
     lut->setScene(lutScene(one_, options_));
     addMethod(
-        name, [lut](VkCommandBuffer c) { lut->record(c); }, [lut] { return lut->counts(); });
+        name, Orders::ALL, [lut](VkCommandBuffer c) { lut->record(c); },
+        [lut] { return lut->counts(); });
     return lut;
   }
 
@@ -170,15 +196,25 @@ class Study {
     welkins_.push_back(std::make_unique<WelkinSky>(gpu_, targets, one_, scattering, moving));
     WelkinSky* sky = welkins_.back().get();
     addMethod(
-        name, [sky](VkCommandBuffer c) { sky->record(c); }, [sky] { return sky->counts(); });
+        name, scattering == WLK_SCATTERING_SINGLE ? Orders::ONE : Orders::ALL,
+        [sky](VkCommandBuffer c) { sky->record(c); }, [sky] { return sky->counts(); });
   }
 
-  void addMethod(const char* name, std::function<void(VkCommandBuffer)> record,
+  void addForm(const GpuTargets& targets, SkyForm::Kind kind, Orders orders, const char* name) {
+    forms_.push_back(std::make_unique<SkyForm>(gpu_, targets, kind));
+    SkyForm* form = forms_.back().get();
+    form->setScene(lutScene(one_, options_));
+    addMethod(
+        name, orders, [form](VkCommandBuffer c) { form->record(c); },
+        [form] { return form->counts(); });
+  }
+
+  void addMethod(const char* name, Orders orders, std::function<void(VkCommandBuffer)> record,
                  std::function<GpuCounts()> counts) {
     const auto known = std::find_if(methods_.begin(), methods_.end(),
                                     [&](const Method& method) { return method.name == name; });
     if (known == methods_.end()) {
-      methods_.push_back({name, {std::move(record)}, std::move(counts)});
+      methods_.push_back({name, orders, {std::move(record)}, std::move(counts)});
     } else {
       known->record.push_back(std::move(record));
     }
@@ -196,6 +232,8 @@ class Study {
     return interleave(frames, 0, WARM_UPS, options_.rounds);
   }
 
+  double pixelCount() const { return double{1} * options_.width * options_.height; }
+
   void paint(float color) {
     const std::vector<float> texels(size_t{4} * options_.width * options_.height, color);
     for (const GpuTargets& targets : targets_) {
@@ -209,7 +247,7 @@ class Study {
     return gpu_.download(targets_[0].target);
   }
 
-  Ordered row(const Method& method, const Timing& timing, const SkyErrors& errors) {
+  Ordered row(const Method& method, const Timing& timing, const Errors& errors) {
     gpu_.run(method.record[0]);
     gpu_.run(method.record[0]);  // the library tells a frame's times once the next one began
     const GpuCounts counts = method.counts();
@@ -222,6 +260,8 @@ class Study {
             {"timeMad_ms", timing.wallDeviation},
             {"cpu_ms", timing.cpu},
             {"gpu_ms", timing.gpu},
+            {"nsPerPixel", 1e6 * timing.wall / pixelCount()},
+            {"cpuNsPerPixel", 1e6 * timing.cpu / pixelCount()},
             {"ratio", timing.ratio},
             {"ratioLow", timing.ratioLow},
             {"ratioHigh", timing.ratioHigh},
@@ -230,17 +270,23 @@ class Study {
             {"invocations", counts.invocations},
             {"bytes", counts.bytes},
             {"passes_ms", passes},
-            {"error", errorsJson(errors)}};
+            {"error", errorsJson(errors.all)},
+            {"errorOfFirstOrder", errorsJson(errors.single)}};
   }
 
-  void printRow(const std::string& name, const Timing& timing, const SkyErrors& errors) const {
+  void printRow(const std::string& name, const Timing& timing, const Errors& errors) const {
     std::printf("| %s | %s | %.1f | %.1f | %.2f (%.2f..%.2f) | %.2f |", one_.name.c_str(),
                 name.c_str(), timing.wall, timing.cpu, timing.ratio, timing.ratioLow,
                 timing.ratioHigh, timing.cpuRatio);
     for (const std::vector<double>* part :
-         {&errors.sky, &errors.aerial, &errors.aerialFar, &errors.transmittance}) {
-      std::printf(" %.2f / %.2f / %.2f |", 100 * quantile(*part, 0.5), 100 * quantile(*part, 0.9),
-                  100 * quantile(*part, 1));
+         {&errors.all.sky, &errors.all.aerial, &errors.all.aerialFar, &errors.all.transmittance,
+          &errors.single.sky, &errors.single.aerial, &errors.single.aerialFar}) {
+      if (part->empty()) {
+        std::printf(" - |");
+      } else {
+        std::printf(" %.2f / %.2f / %.2f |", 100 * quantile(*part, 0.5), 100 * quantile(*part, 0.9),
+                    100 * quantile(*part, 1));
+      }
     }
     std::printf("\n");
     std::fflush(stdout);
@@ -253,6 +299,7 @@ class Study {
   std::vector<GpuTargets> targets_;
   std::vector<std::unique_ptr<LutSky>> luts_;
   std::vector<std::unique_ptr<WelkinSky>> welkins_;
+  std::vector<std::unique_ptr<SkyForm>> forms_;
   std::vector<Method> methods_;
 };
 
@@ -281,8 +328,9 @@ int run(const Options& options) {
   report.erase("rows");
   std::printf(
       "| case | method | ms | CPU ms | time of lut's | CPU time of lut's | sky, %% | "
-      "aerial, %% | beyond froxels, %% | transmittance, %% |\n"
-      "|---|---|---|---|---|---|---|---|---|---|\n");
+      "aerial, %% | beyond froxels, %% | transmittance, %% | first order: sky, %% | aerial, %% | "
+      "beyond froxels, %% |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   std::vector<SkyErrors> all;
   std::vector<std::string> names;
   Ordered cases = Ordered::array();

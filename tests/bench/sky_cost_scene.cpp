@@ -48,7 +48,11 @@ double surfaceAlong(double altitude, const host::Vec3& direction) {
 }  // namespace
 
 std::vector<SkyCase> skyCases() {
-  return {{"sun-60", 60, 60, 2}, {"sun-30", 30, 120, 200}, {"sun-10", 10, 30, 2000}};
+  return {{"sun-60", 60, 60, 2},
+          {"sun-30", 30, 120, 200},
+          {"sun-10", 10, 30, 2000},
+          {"sun-2", 2, 80, 20},
+          {"sun-below-2", -2, 15, 2}};
 }
 
 host::CameraDesc skyCamera(const SkyCase& one) {

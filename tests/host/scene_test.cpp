@@ -80,6 +80,72 @@ TEST(HostScene, ReadsEverySection) {
   EXPECT_EQ(scene.png.toneMap, host::ToneMap::Linear);
 }
 
+TEST(HostScene, StartsFromAnAtmosphereThatSectionsChange) {
+  const host::Scene mars = parse(R"({"atmosphere": "mars", "lights": [{}]})");
+  EXPECT_EQ(mars.planet.radius, 3.3895e6f);
+  EXPECT_LT(mars.sky->rayleighScattering[2], 1e-6f);
+  EXPECT_EQ(mars.absorber->extinction[1], 0.0f);
+  EXPECT_EQ(mars.fog->scaleHeight, 11000.0f);
+  EXPECT_EQ(mars.fogMedium->info.particle, uint32_t{WLK_PARTICLE_HENYEY_GREENSTEIN});
+  EXPECT_LT(mars.lights[0].irradiance[0], 0.5f);
+  EXPECT_GT(mars.lights[0].limbDarkening[0], 0.3f);
+  const host::Scene changed = parse(R"({"atmosphere": "earth-hazy", "planet": {"radius": 7e6},
+    "sky": {"scaleHeight": 9000}, "absorber": null, "fog": {"extinction": 0.5}})");
+  EXPECT_EQ(changed.planet.radius, 7e6f);
+  EXPECT_EQ(changed.sky->scaleHeight, 9000.0f);
+  EXPECT_EQ(changed.sky->rayleighScattering[0], 5.8e-6f);
+  EXPECT_FALSE(changed.absorber.has_value());
+  EXPECT_EQ(changed.fog->extinction, 0.5f);
+  EXPECT_EQ(changed.fog->scaleHeight, 1500.0f);
+  EXPECT_EQ(changed.fogMedium->info.particle, uint32_t{WLK_PARTICLE_HAZE});
+  const host::Scene bare = parse(R"({"atmosphere": "earth-clear"})", {"fog=null", "sky=null"});
+  EXPECT_FALSE(bare.fog || bare.fogMedium || bare.sky);
+  EXPECT_TRUE(bare.absorber.has_value());
+  // Droplets of the user's own are droplets.
+  const host::Scene droplets =
+      parse(R"({"atmosphere": "earth-hazy", "fog": {"dropletDiameter_um": 5}})");
+  EXPECT_FALSE(droplets.fogMedium.has_value());
+  EXPECT_EQ(droplets.fog->dropletDiameter_um, 5.0f);
+  expectSceneError("atmosphere: expected one of earth-clear, earth-hazy, earth-polluted, mars",
+                   R"({"atmosphere": "venus"})");
+}
+
+TEST(HostScene, ReadsAbsorberFogMediumAndMoon) {
+  const host::Scene scene = parse(R"({"absorber": {"peakAltitude": 20000},
+    "media": {"dust": {"particle": "henyey-greenstein", "asymmetry": 0.7}},
+    "fog": {"medium": "dust", "extinction": 1e-4, "singleScatteringAlbedo": 0.9},
+    "lights": [{"elevation_deg": -20, "limbDarkening": "sun", "irradiance": [1, 2, 3]},
+               {"moon": true, "elevation_deg": 40, "limbDarkening": 0.25},
+               {"litFrom": [0, 0, -2], "limbDarkening": [0, 1, 2]}]})");
+  EXPECT_EQ(scene.absorber->peakAltitude, 20000.0f);
+  EXPECT_EQ(scene.absorber->halfWidth, 15000.0f);
+  EXPECT_EQ(scene.fogMedium->info.asymmetry, 0.7f);
+  EXPECT_EQ(scene.fog->singleScatteringAlbedo[1], 0.9f);
+  EXPECT_EQ(scene.fog->medium.id, 0u);
+  ASSERT_EQ(scene.lights.size(), 3u);
+  EXPECT_GT(scene.lights[0].limbDarkening[2], scene.lights[0].limbDarkening[0]);
+  const WlkLight& moon = scene.lights[1];
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(moon.litFrom[i], scene.lights[0].direction[i], FLOAT_UNIT);
+  }
+  EXPECT_NEAR(moon.direction[1], std::sin(40.0 * host::RADIANS_PER_DEGREE), FLOAT_UNIT);
+  EXPECT_LT(moon.irradiance[0], 1e-4f);
+  EXPECT_EQ(moon.limbDarkening[0], 0.25f);
+  EXPECT_EQ(scene.lights[2].litFrom[2], -1.0f);
+  EXPECT_EQ(scene.lights[2].limbDarkening[2], 2.0f);
+  expectSceneError("fog.medium: expected the name of one of media, got \"dust\"",
+                   R"({"fog": {"medium": "dust"}})");
+  expectSceneError("fog: expected medium, or model and dropletDiameter_um, not both",
+                   R"({"media": {"d": {}}, "fog": {"medium": "d", "model": "table"}})");
+  expectSceneError("lights.0.moon: expected a light before the moon",
+                   R"({"lights": [{"moon": true}]})");
+  expectSceneError("lights.0.limbDarkening: expected one of sun",
+                   R"({"lights": [{"limbDarkening": "moon"}]})");
+  expectSceneError("lights.0.litFrom: expected a vector that is not 0",
+                   R"({"lights": [{"litFrom": [0, 0, 0]}]})");
+  expectSceneError("absorber.extinktion: unknown key", R"({"absorber": {"extinktion": 1}})");
+}
+
 TEST(HostScene, NamesTheKeyAndTheExpectedValue) {
   expectSceneError("s.json: fgo: unknown key; expected one of", R"({"fgo": {}})");
   expectSceneError("fog.extinktion: unknown key", R"({"fog": {"extinktion": 1}})");
@@ -254,6 +320,10 @@ TEST(HostScene, MergesOverItsBase) {
   const host::Scene scene = host::parseScene(host::readSceneJson(file, {}), file);
   EXPECT_EQ(scene.fog->extinction, 2.0f);
   EXPECT_EQ(scene.fog->scaleHeight, 7.0f);
+  // A null takes a section away, whether the base or its atmosphere had it.
+  static_cast<void>(folder.write("air.json", R"({"atmosphere": "mars"})"));
+  const std::string clear = folder.write("clear.json", R"({"base": "air.json", "fog": null})");
+  EXPECT_FALSE(host::parseScene(host::readSceneJson(clear, {}), clear).fog.has_value());
   const std::string loop = folder.write("loop.json", R"({"base": "loop.json"})");
   expectInputError("at most 8", [&] { host::readSceneJson(loop, {}); });
 }

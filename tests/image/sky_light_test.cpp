@@ -56,6 +56,14 @@ class SkyLightPicture : public ::testing::Test {
     return ray;
   }
 
+  // The query counts light of the ground that fog turns a little as the fog's, the picture as the
+  // ground's.
+  void setBlackGround() const {
+    auto planet = make<WlkPlanet>();
+    std::fill_n(planet.groundAlbedo, 3, 0.0f);
+    check(wlkSetPlanet(scene.context, &planet));
+  }
+
   // Relative differences of all pixels and colours, in rising order; dark ones are left out.
   std::vector<double> differences() {
     const Image picture = scene.render();
@@ -185,6 +193,105 @@ TEST_F(SkyLightPicture, OfClearAirFollowsTheQuery) {
   }
 }
 
+// Whether the table holds all light depends on how high the air is beside the planet.
+TEST_F(SkyLightPicture, OfASmallPlanetFollowsTheQuery) {
+  auto planet = make<WlkPlanet>();
+  planet.radius = 6e5f;
+  check(wlkSetPlanet(scene.context, &planet));
+  auto sky = make<WlkSky>();
+  sky.scaleHeight = 1500;
+  for (float& one : sky.rayleighScattering) {
+    one *= 5;
+  }
+  check(wlkSetSky(scene.context, &sky));
+  for (const Station& from : {Station{2, 20}, {2500, 0}, {12000, -8}}) {
+    expectWithin(from, {60, 20, 6, 3}, 0.005, 0.03);
+  }
+}
+
+TEST_F(SkyLightPicture, WithOzoneFollowsTheQuery) {
+  scene.setSky();
+  const auto ozone = make<WlkAbsorber>();
+  check(wlkSetAbsorber(scene.context, &ozone));
+  for (const Station& from : {Station{2, 20}, {12000, -8}, {60000, -8}}) {
+    expectWithin(from, {60, 6, -4}, 0.01, 0.05);
+  }
+  for (const Station& from : {Station{130000, -10}, {36e6, -87}}) {
+    expectWithin(from, {60, 2}, 0.005, 0.1);
+  }
+}
+
+// Sun and moon: a table each, side by side.
+TEST_F(SkyLightPicture, OfTwoLightsFollowsTheQuery) {
+  scene.setSky();
+  setBlackGround();
+  for (const double altitude : {2.0, 3e5}) {
+    look({altitude, altitude > 1e5 ? -15.0 : 10.0}, 110);
+    for (const bool fog : {false, true}) {
+      if (fog) {
+        scene.setFog(2e-5f, 300);
+      } else {
+        check(wlkSetFog(scene.context, nullptr));
+      }
+      for (const float height : {0.3f, -0.02f}) {
+        WlkLight lights[2] = {make<WlkLight>(), make<WlkLight>()};
+        lights[0].direction[0] = 0.8f;
+        lights[0].direction[1] = height;
+        lights[0].direction[2] = -std::sqrt(1 - 0.64f - height * height);
+        lights[1].direction[0] = -0.6f;
+        lights[1].direction[1] = 0.0f;
+        lights[1].direction[2] = 0.8f;
+        lights[1].irradiance[2] = 0.2f;
+        check(wlkSetLights(scene.context, 2, sizeof *lights, lights));
+        const std::vector<double> both = differences();
+        ASSERT_FALSE(both.empty());
+        const double p95 = both[static_cast<size_t>(0.95 * static_cast<double>(both.size() - 1))];
+        std::printf("%.0f m, fog %d, height %.2f: p95 %.3f %%, worst %.3f %%\n", altitude,
+                    fog ? 1 : 0, static_cast<double>(height), 100 * p95, 100 * both.back());
+        EXPECT_LE(p95, 0.005);
+        EXPECT_LE(both.back(), 0.1);
+      }
+    }
+  }
+}
+
+// Exact limit: two lights in one direction are one with the sum of their irradiances, and a light
+// that has set long ago is left out.
+TEST_F(SkyLightTurned, LightsAddUp) {
+  scene.setSky();
+  scene.setCamera({0, 1500, 0}, 10, 5);
+  scene.setSun(20, 30);
+  const Image one = scene.render();
+  WlkLight lights[2] = {make<WlkLight>(), make<WlkLight>()};
+  for (WlkLight& light : lights) {
+    const double elevation = 20 * std::numbers::pi / 180;
+    const double azimuth = 30 * std::numbers::pi / 180;
+    light.direction[0] = static_cast<float>(std::cos(elevation) * std::sin(azimuth));
+    light.direction[1] = static_cast<float>(std::sin(elevation));
+    light.direction[2] = static_cast<float>(-std::cos(elevation) * std::cos(azimuth));
+  }
+  std::fill_n(lights[0].irradiance, 3, 0.75f);
+  std::fill_n(lights[1].irradiance, 3, 0.25f);
+  check(wlkSetLights(scene.context, 2, sizeof *lights, lights));
+  const Image sum = scene.render();
+  EXPECT_LE(relativeRms(sum, one), 1e-6);
+  const auto invocations = [&] {
+    uint64_t count = 0;
+    for (const WlkPassStats& pass : scene.passes()) {
+      count += pass.pass == WLK_PASS_SKY_TABLE ? pass.invocations : 0;
+    }
+    return count;
+  };
+  const uint64_t two = invocations();
+  std::fill_n(lights[0].irradiance, 3, 1.0f);
+  std::fill_n(lights[1].direction, 3, 0.0f);
+  lights[1].direction[1] = -1;
+  check(wlkSetLights(scene.context, 2, sizeof *lights, lights));
+  const Image sunOnly = scene.render();
+  EXPECT_LE(relativeRms(sunOnly, one), 1e-6);
+  EXPECT_EQ(2 * invocations(), two);
+}
+
 TEST_F(SkyLightPicture, FromSpaceFollowsTheQuery) {
   scene.setSky();
   for (const Station& from : {Station{130000, -10}, {400000, -20}, {36e6, -87}}) {
@@ -201,11 +308,7 @@ TEST_F(SkyLightPicture, InTwilightFollowsTheQuery) {
 
 TEST_F(SkyLightPicture, OfFogFollowsTheQuery) {
   scene.setSky();
-  // The query counts light of the ground that fog turns a little as the fog's, the picture as the
-  // ground's.
-  auto planet = make<WlkPlanet>();
-  std::fill_n(planet.groundAlbedo, 3, 0.0f);
-  check(wlkSetPlanet(scene.context, &planet));
+  setBlackGround();
   // In thick fog the query's own 48 steps are long.
   struct Layer {
     float extinction;

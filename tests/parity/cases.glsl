@@ -30,6 +30,9 @@ Air parityAir(ParityRow r) {
   air.fogBaseAltitude = r.b.z;
   air.fogScaleHeight = r.b.w;
   air.fogAlbedo = head(r.c);
+  air.absorption = vec3(r.c.w, real(3.0f) * r.c.w, real(0.1f) * r.c.w);
+  air.absorberPeak = real(25000.0f);
+  air.absorberWidth = real(15000.0f);
   return air;
 }
 

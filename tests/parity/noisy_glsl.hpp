@@ -11,6 +11,7 @@ using uint = unsigned int;
 
 constexpr bool AIR_ENABLED = true;
 constexpr bool FOG_ENABLED = true;
+constexpr bool ABSORBER_ENABLED = true;
 
 unsigned noiseState = 1;
 

@@ -5,6 +5,7 @@
 #define real float
 const bool AIR_ENABLED = true;
 const bool FOG_ENABLED = true;
+const bool ABSORBER_ENABLED = true;
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const int WHICH = 0;
 #include "model/model.glsl"

@@ -136,6 +136,7 @@ void airRow(Random& random, size_t i, Row& row) {
   row[8] = 0.9f;
   row[9] = 0.95f;
   row[10] = 1.0f;
+  row[11] = i % 2 == 0 ? 0.0f : 6.5e-7f;
   row[12] = i % 5 == 0 ? 2.0f : random.logarithmic(1, 3e4);
   const double view = i % 2 == 0 ? random.uniform(-1, 1) : random.uniform(-0.1, 0.1);
   const double sun = random.uniform(-0.02, 1);

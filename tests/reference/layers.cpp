@@ -26,14 +26,19 @@ struct Rule {
   }
 };
 
+const Rule& rule() {
+  static const Rule nodes;
+  return nodes;
+}
+
 // Integral of e^(-rise / scaleHeight) over `length` of a ray that does not sink. The integrand is
 // entire in t, between an exponential and a Gaussian: one panel is enough.
 double risingColumn(const Climb& ray, double scaleHeight, double length) {
-  static const Rule rule;
+  const Rule& nodes = rule();
   const double end = std::min(length, ray.below(ray.altitude + REACH * scaleHeight).end);
   double sum = 0;
   for (size_t i = 0; i < NODES; ++i) {
-    sum += rule.weight[i] * std::exp(-ray.rise(rule.node[i] * end) / scaleHeight);
+    sum += nodes.weight[i] * std::exp(-ray.rise(nodes.node[i] * end) / scaleHeight);
   }
   return sum * end;
 }
@@ -127,6 +132,44 @@ double UniformLayer::collision(const Climb& ray, size_t channel, double length,
   }
   const double t = part.begin + random.exponential() / extinction[channel];
   return t < part.end ? t : FAR;
+}
+
+double AbsorbingLayer::opticalDepth(const Climb& ray, size_t channel, double length) const {
+  if (extinction[channel] <= 0 || length <= 0) {
+    return 0;
+  }
+  const auto density = [&](double altitude) {
+    return std::max(1 - std::fabs(altitude - peak) / halfWidth, 0.0);
+  };
+  // Over a panel without a knot, which on a plane may be endless. A ray is level there.
+  const auto column = [&](double from, double to) {
+    const double begin = std::min(from, length);
+    const double end = std::min(to, length);
+    if (end <= begin) {
+      return 0.0;
+    }
+    if (end == FAR) {
+      return density(ray.altitude) > 0 ? FAR : 0.0;
+    }
+    double sum = 0;
+    for (size_t i = 0; i < NODES; ++i) {
+      const double t = begin + (end - begin) * rule().node[i];
+      sum += rule().weight[i] * density(ray.altitude + ray.rise(t));
+    }
+    return sum * (end - begin);
+  };
+  // Where the ray is below each knot; a part that it does not reach is empty and at the end.
+  Climb::Interval outer = ray.below(peak + halfWidth);
+  double sum = 0;
+  for (const double knot : {peak, std::max(peak - halfWidth, 0.0)}) {
+    Climb::Interval inner = ray.below(knot);
+    if (inner.end <= inner.begin) {
+      inner = {outer.end, outer.end};
+    }
+    sum += column(outer.begin, inner.begin) + column(inner.end, outer.end);
+    outer = inner;
+  }
+  return extinction[channel] * sum;
 }
 
 }  // namespace welkin::reference

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Horizontal layers that scatter and absorb: exponential in altitude over a plane or a sphere, and
-// uniform between two planes. Optical depths along a ray and distances to collisions, in m and 1/m.
+// uniform between two planes; and one that absorbs only. Optical depths along a ray and distances
+// to collisions, in m and 1/m.
 #pragma once
 
 #include "reference/globe.hpp"
@@ -39,6 +40,19 @@ struct UniformLayer {
   Climb::Interval within(const Climb& ray, double length) const;
   double opticalDepth(const Climb& ray, size_t channel, double length) const;
   double collision(const Climb& ray, size_t channel, double length, Random& random) const;
+};
+
+// A gas that scatters nothing, over a plane or a sphere. Density rises linearly from 0 at peak -
+// halfWidth to 1 at the peak, falls linearly to 0 at peak + halfWidth, and is 0 below sea level.
+struct AbsorbingLayer {
+  double peak = 25000;
+  double halfWidth = 15000;  // > 0
+  Rgb extinction{};          // at the peak
+
+  // As above; the planet is transparent. 16 Gauss nodes between knots: exact over a plane, over a
+  // sphere 1e-12 of the depth that the same length would have at the peak, for tops up to a tenth
+  // of the planet's radius (AbsorbingLayer.DepthAgreesWithItsClosedForm).
+  double opticalDepth(const Climb& ray, size_t channel, double length) const;
 };
 
 }  // namespace welkin::reference

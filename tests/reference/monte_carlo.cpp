@@ -34,6 +34,11 @@ void check(const Scene& scene, const RenderOptions& options) {
   if (scene.globe.radius != FAR && !scene.uniformLayers.empty()) {
     throw std::invalid_argument("monte carlo: uniform layers need a flat globe");
   }
+  for (const AbsorbingLayer& layer : scene.absorbers) {
+    if (!(layer.halfWidth > 0)) {
+      throw std::invalid_argument("monte carlo: an absorbing layer needs a width");
+    }
+  }
   if (options.samples < 2) {
     throw std::invalid_argument("monte carlo: an error takes two samples");
   }
@@ -72,6 +77,9 @@ bool Scene::grey() const {
   }
   for (const UniformLayer& layer : uniformLayers) {
     grey = grey && isGreyMedium(layer);
+  }
+  for (const AbsorbingLayer& layer : absorbers) {
+    grey = grey && isGrey(layer.extinction);
   }
   for (const VoxelVolume& volume : volumes) {
     for (const ParticleField& field : volume.fields()) {

@@ -5,7 +5,8 @@
 //
 // Paths start at the eye. In each component a collision distance is drawn on its own; the nearest
 // one is the path's, since the smallest of independent exponential optical depths is distributed as
-// the depth of the sum. At each collision the lights are sampled (next-event estimation).
+// the depth of the sum. At each collision the lights are sampled (next-event estimation). A layer
+// that absorbs only is never hit: on each stretch of a path its transmittance is a factor.
 #pragma once
 
 #include <cstdint>
@@ -33,6 +34,7 @@ struct Scene {
   Rgb groundAlbedo{};
   std::vector<ExponentialLayer> layers;
   std::vector<UniformLayer> uniformLayers;  // need a flat globe
+  std::vector<AbsorbingLayer> absorbers;
   std::vector<VoxelVolume> volumes;
   std::vector<DistantLight> lights;
   Rgb environment{};  // radiance from everywhere outside

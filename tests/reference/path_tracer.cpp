@@ -96,8 +96,8 @@ PathTracer::Collision PathTracer::collide(const Point& origin, const Point& dire
   return nearest;
 }
 
-double PathTracer::opticalDepth(const Point& origin, const Point& direction, size_t channel,
-                                double length) const {
+double PathTracer::collisionDepth(const Point& origin, const Point& direction, size_t channel,
+                                  double length) const {
   const Climb climb = scene_.globe.climb(origin, direction);
   double depth = 0;
   for (const ExponentialLayer& layer : scene_.layers) {
@@ -110,6 +110,21 @@ double PathTracer::opticalDepth(const Point& origin, const Point& direction, siz
     depth += volume.opticalDepth(origin, direction, channel, length);
   }
   return depth;
+}
+
+double PathTracer::absorption(const Point& origin, const Point& direction, size_t channel,
+                              double length) const {
+  double depth = 0;
+  for (const AbsorbingLayer& layer : scene_.absorbers) {
+    depth += layer.opticalDepth(scene_.globe.climb(origin, direction), channel, length);
+  }
+  return depth;
+}
+
+double PathTracer::opticalDepth(const Point& origin, const Point& direction, size_t channel,
+                                double length) const {
+  return collisionDepth(origin, direction, channel, length) +
+         absorption(origin, direction, channel, length);
 }
 
 // Estimate of the transmittance to infinity; 0 behind the ground.
@@ -139,6 +154,7 @@ double PathTracer::unshadowed(const Vertex& vertex, const Point& direction, size
   for (const ExponentialLayer& layer : scene_.layers) {
     depth += layer.opticalDepth(climb, channel, FAR);
   }
+  depth += absorption(vertex.position, direction, channel, FAR);
   if (exact) {
     return depth > enough ? 0.0 : std::exp(-std::min(depth, SHADOW_DEPTH));
   }
@@ -293,6 +309,7 @@ Rgb PathTracer::follow(Path path, const Collision* first, size_t channel, Random
                                             : collide(path.origin, path.direction, channel, FAR,
                                                       path.onGround, random);
     first = nullptr;
+    path.throughput *= std::exp(-absorption(path.origin, path.direction, channel, next.distance));
     if (next.phase == nullptr && !next.ground) {
       if (path.order > 0 && counts(path.order)) {
         add(escaped(path));
@@ -351,7 +368,7 @@ PathTracer::FirstFlight PathTracer::firstFlight(const EyeRay& ray) const {
   first.ground = ground < ray.length ? ground : FAR;
   for (size_t c = 0; c < 3; ++c) {
     const double length = std::min(ground, ray.length);
-    first.collides[c] = -std::expm1(-opticalDepth(ray.origin, ray.direction, c, length));
+    first.collides[c] = -std::expm1(-collisionDepth(ray.origin, ray.direction, c, length));
   }
   return first;
 }

@@ -15,7 +15,7 @@ class PathTracer {
   struct Path {
     Point origin;
     Point direction;
-    double throughput = 1;  // albedos, roulette
+    double throughput = 1;  // albedos, absorbing layers, roulette
     double share = 1;       // of what the path stands for, after branching
     double weight = 1;      // of the path's first stretch
     double density = 0;     // per sr, of the direction when it scattered last
@@ -50,6 +50,11 @@ class PathTracer {
                     bool onGround, Random& random) const;
   double opticalDepth(const Point& origin, const Point& direction, size_t channel,
                       double length) const;
+  // Of what paths may hit, and of what absorbs only.
+  double collisionDepth(const Point& origin, const Point& direction, size_t channel,
+                        double length) const;
+  double absorption(const Point& origin, const Point& direction, size_t channel,
+                    double length) const;
   double unshadowed(const Vertex& vertex, const Point& direction, size_t channel,
                     Random& random) const;
   Rgb lit(const Vertex& vertex, size_t channel, bool disksOnly, Random& random) const;

@@ -76,6 +76,57 @@ double layerColumn(const Planet& planet, double altitude, double mu, double leng
   return sum;
 }
 
+bool absorbs(const Planet& planet) {
+  return *std::max_element(planet.absorption.begin(), planet.absorption.end()) > 0.0;
+}
+
+// Ends of panels on which the absorber's density is smooth: the spheres through its knots, each met
+// twice, and the lowest point. Between them the altitude is a hyperbola of the distance, with its
+// singularities at +-i times the lowest radius: panels grow no faster than that distance does.
+std::vector<double> absorberCuts(const Planet& planet, double altitude, double mu, double length) {
+  const double r = planet.radius + altitude;
+  const double lowestRadius = r * std::sqrt(std::max((1.0 - mu) * (1.0 + mu), 0.0));
+  const double lowest = -r * mu;
+  const double bottom = std::max(planet.absorberPeak - planet.absorberWidth, 0.0);
+  std::vector<double> halves = {0.0};
+  for (const double knot :
+       {bottom, planet.absorberPeak, planet.absorberPeak + planet.absorberWidth}) {
+    const double end = halfChord(planet, lowestRadius, knot);
+    double next = std::max(2.0 * halves.back(), lowestRadius);
+    for (; 0.0 < next && next < end; next *= 2.0) {
+      halves.push_back(next);
+    }
+    halves.push_back(end);
+  }
+  std::vector<double> cuts;
+  for (const double half : halves) {
+    cuts.push_back(std::clamp(lowest - half, 0.0, length));
+    cuts.push_back(std::clamp(lowest + half, 0.0, length));
+  }
+  std::sort(cuts.begin(), cuts.end());
+  return cuts;
+}
+
+double absorberDensity(const Planet& planet, double altitude) {
+  const double fall = std::fabs(altitude - planet.absorberPeak) / planet.absorberWidth;
+  return altitude >= 0.0 ? std::max(1.0 - fall, 0.0) : 0.0;
+}
+
+double absorberColumn(const Planet& planet, double altitude, double mu, double length) {
+  static const GaussRule rule = gaussLegendre(12);
+  const std::vector<double> cuts = absorberCuts(planet, altitude, mu, length);
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+    const double width = cuts[i + 1] - cuts[i];
+    for (std::size_t k = 0; width > 0.0 && k < rule.node.size(); ++k) {
+      const double t = cuts[i] + width * static_cast<double>(rule.node[k]);
+      const double h = altitudeAt(planet, altitude, mu, t);
+      sum += static_cast<double>(rule.weight[k]) * width * absorberDensity(planet, h);
+    }
+  }
+  return sum;
+}
+
 struct Integrand {
   const Planet& planet;
   const PlanetRay& ray;
@@ -103,6 +154,7 @@ struct Integrand {
       const Columns light = columns(planet, h, mu, std::numeric_limits<double>::infinity());
       path.air += before.air + light.air;
       path.fog += before.fog + light.fog;
+      path.absorber += before.absorber + light.absorber;
       const std::array<double, 3> depth = depthOf(planet, path);
       const double air = std::exp(-h / planet.airScaleHeight);
       const double fog =
@@ -126,7 +178,8 @@ struct Integrand {
     const double h = altitudeAt(planet, ray.altitude, ray.viewMu, t0);
     const double mu = std::clamp((r * ray.viewMu + t0) / (planet.radius + h), -1.0, 1.0);
     const Columns half = columns(planet, h, mu, middle - t0);
-    const Columns between = {before.air + half.air, before.fog + half.fog};
+    const Columns between = {before.air + half.air, before.fog + half.fog,
+                             before.absorber + half.absorber};
     const std::array<double, 3> a = panel(t0, middle, before);
     const std::array<double, 3> b = panel(middle, t1, between);
     double error = 0.0;
@@ -151,13 +204,17 @@ Columns columns(const Planet& planet, double altitude, double mu, double length)
     c.fog =
         layerColumn(planet, altitude, mu, length, planet.fogBaseAltitude, planet.fogScaleHeight);
   }
+  if (absorbs(planet)) {
+    c.absorber = absorberColumn(planet, altitude, mu, length);
+  }
   return c;
 }
 
 std::array<double, 3> depthOf(const Planet& planet, const Columns& c) {
   std::array<double, 3> depth{};
   for (std::size_t i = 0; i < 3; ++i) {
-    depth[i] = planet.airScattering[i] * c.air + planet.fogExtinction * c.fog;
+    depth[i] = planet.airScattering[i] * c.air + planet.fogExtinction * c.fog +
+               planet.absorption[i] * c.absorber;
   }
   return depth;
 }
@@ -183,8 +240,13 @@ std::array<double, 3> inscatter(const Planet& planet, const PlanetRay& ray, doub
     const std::vector<double> fog = layerCuts(planet, ray.altitude, ray.viewMu, ray.length,
                                               planet.fogBaseAltitude, planet.fogScaleHeight);
     cuts.insert(cuts.end(), fog.begin(), fog.end());
-    std::sort(cuts.begin(), cuts.end());
   }
+  if (absorbs(planet)) {
+    // Where its column has a bend.
+    const std::vector<double> knots = absorberCuts(planet, ray.altitude, ray.viewMu, ray.length);
+    cuts.insert(cuts.end(), knots.begin(), knots.end());
+  }
+  std::sort(cuts.begin(), cuts.end());
   const Integrand f{planet, ray, airPhase, fogPhase, angularRadius, rule};
   const double r = planet.radius + ray.altitude;
   std::vector<Columns> before(cuts.size());
@@ -200,6 +262,7 @@ std::array<double, 3> inscatter(const Planet& planet, const PlanetRay& ray, doub
     const Columns part = columns(planet, h, mu, cuts[i + 1] - cuts[i]);
     sum.air += part.air;
     sum.fog += part.fog;
+    sum.absorber += part.absorber;
   }
   std::array<double, 3> result = {0.0, 0.0, 0.0};
   const double allowed = tolerance * std::max(total, DARK) / static_cast<double>(cuts.size());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Once-scattered light and optical depth of two exponential layers around a sphere, by quadrature
-// along straight lines with positions in long double and nothing but exp, sqrt and asin. Slow.
+// Once-scattered light and optical depth of two exponential layers and one that absorbs only around
+// a sphere, by quadrature along straight lines with positions in long double and nothing but exp,
+// sqrt and asin. Slow.
 #pragma once
 
 #include <array>
@@ -16,6 +17,11 @@ struct Planet {
   double fogBaseAltitude = 0.0;
   double fogScaleHeight = 100.0;
   std::array<double, 3> fogAlbedo = {1.0, 1.0, 1.0};
+  // Scatters nothing. Density rises linearly from 0 at peak - width to 1 at the peak, falls
+  // linearly to 0 at peak + width, and is 0 below sea level.
+  std::array<double, 3> absorption = {0.0, 0.0, 0.0};  // at the peak
+  double absorberPeak = 25000.0;
+  double absorberWidth = 15000.0;
 };
 
 // A ray at its origin: cosines of view and light with the local up and with each other.
@@ -27,13 +33,15 @@ struct PlanetRay {
   double length;  // may be infinite
 };
 
-// Depth per unit extinction at altitude 0 (air) and at the base (fog). m.
+// Depth per unit extinction at altitude 0 (air), at the base (fog) and at the peak (absorber). m.
 struct Columns {
   double air;
   double fog;
+  double absorber;
 };
 
-// Integral of both densities along a ray; the planet is transparent. Relative error <= 1e-8.
+// Integral of the densities along a ray; the planet is transparent. Relative error <= 1e-8; of the
+// absorber 1e-12 of the ray's length in it (AbsorberReference.ColumnIsItsClosedForm).
 Columns columns(const Planet& planet, double altitude, double mu, double length);
 
 // Optical depth from columns. RGB.

@@ -50,12 +50,14 @@ VictimScene::VictimScene() : scene(victimOptions()) {
 
 void VictimScene::restore() {
   check(wlkSetPlanet(scene.context, nullptr));
+  check(wlkSetAbsorber(scene.context, nullptr));
   scene.setSky();
   scene.setFog(2e-4f, 300.0f);
   scene.setSun(35.0, 20.0);
   scene.setCamera({0, 2, 0}, 0.0, 12.0);
   const auto transform = boxTransform({-200, 0, -900}, {400, 300, 400});
   check(wlkSetVolumeTransform(scene.context, volume, transform.data()));
+  check(wlkPrepare(scene.context));
 }
 
 void VictimScene::expectUnchanged() {

@@ -44,19 +44,23 @@ TEST(StructHeader, OfSceneStructuresIsCheckedBeforeAnythingChanges) {
   fog.extinction = 0.5f;
   auto light = make<WlkLight>();
   light.irradiance[1] = 7.0f;
+  const auto absorber = make<WlkAbsorber>();
   const auto setPlanet = [&](const WlkPlanet* p) { return wlkSetPlanet(c, p); };
   const auto setSky = [&](const WlkSky* p) { return wlkSetSky(c, p); };
   const auto setFog = [&](const WlkFog* p) { return wlkSetFog(c, p); };
   const auto setLight = [&](const WlkLight* p) { return wlkSetLights(c, 1, sizeof *p, p); };
+  const auto setAbsorber = [&](const WlkAbsorber* p) { return wlkSetAbsorber(c, p); };
   abuseHeader<WlkPlanet>(planet, setPlanet);
   abuseHeader<WlkSky>(sky, setSky);
   abuseHeader<WlkFog>(fog, setFog);
   abuseHeader<WlkLight>(light, setLight);
+  abuseHeader<WlkAbsorber>(absorber, setAbsorber);
   victim.expectUnchanged();
   expectLongerAccepted<WlkPlanet>(planet, setPlanet);
   expectLongerAccepted<WlkSky>(sky, setSky);
   expectLongerAccepted<WlkFog>(fog, setFog);
   expectLongerAccepted<WlkLight>(light, setLight);
+  expectLongerAccepted<WlkAbsorber>(absorber, setAbsorber);
   victim.restore();
   victim.expectUnchanged();
 }
@@ -225,6 +229,8 @@ TEST(StructHeader, OfOutputStructuresIsCheckedAndOnlyKnownBytesAreWritten) {
   abuseOutput<WlkMediumOptics>(
       [&](WlkMediumOptics* p) { return wlkGetMediumOptics(c, victim.medium, p); },
       "WlkMediumOptics");
+  abuseOutput<WlkAtmospherePreset>(
+      [](WlkAtmospherePreset* p) { return wlkGetAtmospherePreset(0, p); }, "WlkAtmospherePreset");
   abuseOutput<WlkErrorInfo>([](WlkErrorInfo* p) { return wlkGetLastError(p); }, "WlkErrorInfo");
   abuseOutput<WlkVulkanRequirements>(
       [](WlkVulkanRequirements* p) { return wlkVulkanGetRequirements(p); },

@@ -47,10 +47,12 @@ T poisoned(const T& valid, const NumberField& field, uint32_t index, double valu
   return bad;
 }
 
-// `other` differs from the victim's scene in every field, so that a half-made change shows.
+// `other` differs from the victim's scene in every field, so that a half-made change shows. `undo`
+// takes back what VictimScene::restore does not know.
 template <typename T>
-void abuseNumbers(const T& other, const std::vector<NumberField>& fields,
-                  const std::function<WlkResult(const T&)>& call) {
+void abuseNumbers(
+    const T& other, const std::vector<NumberField>& fields,
+    const std::function<WlkResult(const T&)>& call, const std::function<void()>& undo = [] {}) {
   VictimScene& victim = VictimScene::get();
   for (const NumberField& field : fields) {
     bool refused = false;
@@ -67,6 +69,7 @@ void abuseNumbers(const T& other, const std::vector<NumberField>& fields,
           EXPECT_EQ(victim.scene.read(WLK_IMAGE_COLOR).badValues(), 0u);
           EXPECT_EQ(victim.scene.stats().nonFinitePixels, 0u);
           victim.restore();
+          undo();
           continue;
         }
         refused = true;
@@ -96,15 +99,35 @@ TEST(NumberFields, OfPlanetAndSkyAreRefusedOrHarmless) {
                        [&](const WlkSky& p) { return wlkSetSky(c, &p); });
 }
 
+TEST(NumberFields, OfAbsorbersAreRefusedOrHarmless) {
+  const WlkContext c = VictimScene::get().scene.context;
+  auto absorber = make<WlkAbsorber>();
+  absorber.peakAltitude = 15000.0f;
+  absorber.extinction[1] = 1e-4f;
+  abuseNumbers<WlkAbsorber>(
+      absorber,
+      {FLOATS(WlkAbsorber, extinction, 3), FLOATS(WlkAbsorber, peakAltitude, 1),
+       FLOATS(WlkAbsorber, halfWidth, 1)},
+      [&](const WlkAbsorber& p) { return wlkSetAbsorber(c, &p); },
+      [&] {
+        ASSERT_EQ(wlkSetAbsorber(c, nullptr), WLK_SUCCESS);
+        ASSERT_EQ(wlkPrepare(c), WLK_SUCCESS);
+      });
+}
+
 TEST(NumberFields, OfLightAndFogAreRefusedOrHarmless) {
   const WlkContext c = VictimScene::get().scene.context;
   auto light = make<WlkLight>();
   light.direction[0] = 0.8f;
   light.direction[1] = 0.6f;
   light.irradiance[2] = 3.0f;
+  light.limbDarkening[0] = 0.5f;
+  light.litFrom[1] = 0.6f;
+  light.litFrom[2] = -0.8f;
   abuseNumbers<WlkLight>(light,
                          {FLOATS(WlkLight, direction, 3), FLOATS(WlkLight, angularDiameter, 1),
-                          FLOATS(WlkLight, irradiance, 3)},
+                          FLOATS(WlkLight, irradiance, 3), FLOATS(WlkLight, limbDarkening, 3),
+                          FLOATS(WlkLight, litFrom, 3)},
                          [&](const WlkLight& p) { return wlkSetLights(c, 1, sizeof p, &p); });
   auto fog = make<WlkFog>();
   fog.extinction = 0.01f;

@@ -286,8 +286,12 @@ TEST(SkyFan, ScattersLikeSingleRays) {
             welkin::placeAt({radius, viewMu, sunMu[s], airFan.viewSun[s]}, step);
         welkin::SunRow row;
         welkin::blendAltitudes(moments, step.high, 0, row.size(), row.data());
-        const welkin::SkyLight g =
-            welkin::gatherMoments(row.data(), place.view, welkin::sunNode(place.sunMu));
+        const welkin::SkyNode node = welkin::sunNode(place.sunMu);
+        const size_t first = std::min(node.index, SkyField::SUNS - 4);
+        welkin::SunNodes sun{first, {}};
+        sun.weights[node.index - first] = 1 - static_cast<float>(node.share);
+        sun.weights[node.index - first + 1] = static_cast<float>(node.share);
+        const welkin::SkyLight g = welkin::gatherMoments(row.data(), place.view, sun);
         for (size_t c = 0; c < 3; ++c) {
           const float inAir = step.air[c] * welkin::RAYLEIGH * (g.mean[c] + g.square[c]);
           const float inFog = step.fog[c] * welkin::ISOTROPIC *

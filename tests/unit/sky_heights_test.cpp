@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <random>
 
+#include "reference/sky_rays.hpp"
 #include "unit/sky_model.hpp"
 
 namespace {
@@ -20,8 +20,6 @@ using welkin::test::ErrorSample;
 using welkin::test::relativeError;
 
 constexpr double INF = std::numeric_limits<double>::infinity();
-constexpr double PI = 3.14159265358979323846;
-constexpr double DEGREE = PI / 180.0;
 constexpr double SUN_RADIUS = 0.00465;  // rad
 
 // The promise, relative: of the worst channel among those above DARK of the irradiance per sr.
@@ -36,81 +34,17 @@ constexpr double AERIAL_MAX = 2e-2;
 // Of the radiance of the brightest channel; a tenth of the tightest promise is 5e-4.
 constexpr double TRUTH = 5e-5;
 
-struct Sky {
+ref::Planet planetOf(bool hazy) {
   ref::Planet planet;
-  ref::PlanetRay ray;
-  double fogPhase;
-};
-
-// Random rays, deterministic, of one height.
-class Skies {
- public:
-  Skies(double altitude, bool hazy) : altitude_(altitude), hazy_(hazy) {}
-
-  // Any direction, the whole upper sky, and 10 degrees about the horizon in turn; from space half
-  // of the rays pass the limb below 60 km and half meet the ground. Every fourth looks towards the
-  // sun and every fourth away from it, within 10 degrees. The sun stands at `zenith` degrees at the
-  // eye, but from space where the ray is lowest.
-  Sky next(double zenith, double length) {
-    Sky sky{};
-    if (hazy_) {
-      sky.planet.fogExtinction = 2.5e-5;
-      sky.planet.fogScaleHeight = 1200.0;
-      sky.planet.fogAlbedo = {0.9, 0.9, 0.9};
-    }
-    const double radius = sky.planet.radius;
-    const double r = radius + altitude_;
-    sky.ray.altitude = altitude_;
-    sky.ray.viewMu = viewMu(radius, r);
-    const double ground = f64::groundDistance(altitude_, sky.ray.viewMu, radius);
-    sky.ray.length = ground >= 0.0 ? std::min(length, ground) : length;
-
-    const double across = sine(sky.ray.viewMu);
-    const double t = !space() ? 0.0 : ground >= 0.0 ? ground : -r * sky.ray.viewMu;
-    const double there = !space() ? r : ground >= 0.0 ? radius : r * across;
-    const double mu = std::clamp((r * sky.ray.viewMu + t) / there, -1.0, 1.0);
-    const double sun = std::cos(zenith * DEGREE);
-    const double azimuth = (count_ % 4 == 0   ? uniform(-10.0, 10.0)
-                            : count_ % 4 == 1 ? uniform(170.0, 190.0)
-                                              : uniform(0.0, 360.0)) *
-                           DEGREE;
-    sky.ray.viewLight = std::clamp(mu * sun + sine(mu) * sine(sun) * std::cos(azimuth), -1.0, 1.0);
-    sky.ray.lightMu = std::clamp((there * sun - t * sky.ray.viewLight) / r, -1.0, 1.0);
-    const double g = 0.76;
-    sky.fogPhase =
-        hazy_ ? (1 - g * g) / (4 * PI) * std::pow(1 + g * g - 2 * g * sky.ray.viewLight, -1.5)
-              : 0.0;
-    ++count_;
-    return sky;
+  if (hazy) {
+    planet.fogExtinction = 2.5e-5;
+    planet.fogScaleHeight = 1200.0;
+    planet.fogAlbedo = {0.9, 0.9, 0.9};
   }
-  double uniform(double lo, double hi) {
-    return std::uniform_real_distribution<double>(lo, hi)(generator_);
-  }
+  return planet;
+}
 
- private:
-  bool space() const { return altitude_ > 5e4; }
-  static double sine(double cosine) { return std::sqrt((1 - cosine) * (1 + cosine)); }
-
-  double viewMu(double radius, double r) {
-    if (space()) {
-      const double lowest =
-          count_ / 4 % 2 == 0 ? radius + uniform(0.0, 6e4) : radius * std::sqrt(uniform(0.0, 1.0));
-      return -sine(std::min(lowest / r, 1.0));
-    }
-    const double horizon = PI - std::asin(radius / r);
-    const int kind = count_ / 4 % 3;
-    return kind == 0   ? uniform(-1.0, 1.0)
-           : kind == 1 ? std::cos(uniform(0.0, horizon))
-                       : std::cos(horizon + uniform(-10.0, 10.0) * DEGREE);
-  }
-
-  double altitude_;
-  bool hazy_;
-  int count_ = 0;
-  std::mt19937 generator_{1871};
-};
-
-double errorOf(const Sky& sky) {
+double errorOf(const ref::SkyCase& sky) {
   const std::array<double, 3> truth =
       ref::inscatter(sky.planet, sky.ray, airPhase(sky.ray), sky.fogPhase, SUN_RADIUS, TRUTH);
   const f64::AirResult result = f64::airAlongRay(air64(sky.planet), ray64(sky.ray), sky.ray.length,
@@ -124,7 +58,7 @@ double errorOf(const Sky& sky) {
              : -1.0;
 }
 
-void add(ErrorSample& errors, const Sky& sky) {
+void add(ErrorSample& errors, const ref::SkyCase& sky) {
   const double error = errorOf(sky);
   if (error >= 0.0) {
     errors.add(error);
@@ -146,7 +80,7 @@ TEST_P(SkyFrom, HoldsThePromisedErrors) {
   ErrorSample low;
   ErrorSample dusk;
   for (const bool hazy : {false, true}) {
-    Skies skies(GetParam(), hazy);
+    ref::SkyRays skies(planetOf(hazy), GetParam());
     for (int i = 0; i < RAYS; ++i) {
       add(day, skies.next(i % 2 == 0 ? 80.0 : skies.uniform(0.0, 80.0), INF));
       add(low, skies.next(88.0, INF));
@@ -165,7 +99,7 @@ TEST_P(SkyFrom, HoldsThePromisedErrors) {
 TEST_P(AirFrom, HoldsThePromisedErrorsTo50km) {
   ErrorSample errors;
   for (const bool hazy : {false, true}) {
-    Skies skies(GetParam(), hazy);
+    ref::SkyRays skies(planetOf(hazy), GetParam());
     for (int i = 0; i < 2 * RAYS; ++i) {
       const double length = std::exp(skies.uniform(std::log(100.0), std::log(50000.0)));
       add(errors, skies.next(i % 2 == 0 ? 80.0 : skies.uniform(0.0, 80.0), length));
@@ -185,9 +119,9 @@ TEST_P(SkyFrom, FloatFollowsDouble) {
   const bool near = GetParam() < 1e6;
   ErrorSample errors;
   for (const bool hazy : {false, true}) {
-    Skies skies(GetParam(), hazy);
+    ref::SkyRays skies(planetOf(hazy), GetParam());
     for (int i = 0; i < 4000; ++i) {
-      Sky sky = skies.next(skies.uniform(0.0, 88.0), i % 3 == 0 ? 5e4 : INF);
+      ref::SkyCase sky = skies.next(skies.uniform(0.0, 88.0), i % 3 == 0 ? 5e4 : INF);
       const f32::AirRay ray = ray32(sky.ray);
       const auto length = static_cast<float>(sky.ray.length);
       sky.ray = {ray.altitude, ray.viewMu, ray.sunMu, ray.viewSun, length};

@@ -26,6 +26,10 @@ A airOf(const welkin::reference::Planet& planet) {
   air.fogScaleHeight = static_cast<T>(planet.fogScaleHeight);
   air.fogAlbedo = V(static_cast<T>(planet.fogAlbedo[0]), static_cast<T>(planet.fogAlbedo[1]),
                     static_cast<T>(planet.fogAlbedo[2]));
+  air.absorption = V(static_cast<T>(planet.absorption[0]), static_cast<T>(planet.absorption[1]),
+                     static_cast<T>(planet.absorption[2]));
+  air.absorberPeak = static_cast<T>(planet.absorberPeak);
+  air.absorberWidth = static_cast<T>(planet.absorberWidth);
   return air;
 }
 

@@ -211,9 +211,10 @@ struct Bend {
   real far;
 };
 
-// Densities below this times the base's give no slope, and no slope is steeper than SLOPE_CAP.
+// Densities below this times the base's give no slope, and no slope is steeper than SLOPE_CAP: high
+// up in twilight the light comes through air that is 1e6 times as dense.
 const real SLOPE_DENSITY = real(1e-12);
-const real SLOPE_CAP = real(1e4);
+const real SLOPE_CAP = real(1e9);
 real slopeOf(real rate, real density, real cap) {
   return clamp(rate / max(density, SLOPE_DENSITY), -cap, cap);
 }
@@ -273,4 +274,15 @@ const real RATE_FLOOR = real(1e-18);
 real bulge(real rateA, real rateB, real column) {
   real growth = log(max(abs(rateA), RATE_FLOOR) / max(abs(rateB), RATE_FLOOR));
   return column * (rateA - rateB) / sqrt(real(36.0f) + growth * growth);
+}
+
+// Mean over a span of what is near, middle and far (as a parabola), where the light there grows
+// e^growth-fold. Langevin's function of y = growth/2 as y / (1 + sqrt(4 + y^2)), within 3 %.
+const real GROWTH_MOST = real(1e6);
+vec3 meanVisibility(real near, real middle, real far, vec3 growth) {
+  vec3 y = real(0.5f) * clamp(growth, vec3(-GROWTH_MOST), vec3(GROWTH_MOST));
+  vec3 g = vec3(real(1.0f)) / (vec3(real(1.0f)) + sqrt(vec3(real(4.0f)) + y * y));
+  real even = real(0.5f) * (near + far);
+  vec3 mean = g * (y * (real(0.5f) * (far - near)) + vec3(real(2.0f) * (middle - even)));
+  return clamp(mean + vec3(even), vec3(real(0.0f)), vec3(real(1.0f)));
 }
