@@ -39,6 +39,8 @@ SkyField::Moments SkyField::momentsAt(double altitude, double sunMu) const {
       for (size_t n = 0; n < 4; ++n) {
         result[k][c] += static_cast<double>(sun.weights[n] * row[n * VALUES + LANES * k + c]);
       }
+      // Cubics may run below zero in the dark: squares of cosines cannot.
+      result[k][c] = k < 3 ? std::max(result[k][c], 0.0) : result[k][c];
     }
   }
   return result;

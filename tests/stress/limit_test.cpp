@@ -156,7 +156,7 @@ TEST(Limits, OfMediaLightsAndContextsAreChecked) {
 
   auto light = make<WlkLight>();
   light.irradiance[0] = 9.0f;
-  EXPECT_FAILS(wlkSetLights(c, 2, sizeof light, &light), WLK_ERROR_LIMIT_EXCEEDED, "count");
+  EXPECT_FAILS(wlkSetLights(c, 3, sizeof light, &light), WLK_ERROR_LIMIT_EXCEEDED, "count");
   EXPECT_FAILS(wlkSetLights(c, HUGE_COUNT, sizeof light, &light), WLK_ERROR_LIMIT_EXCEEDED,
                "count");
   EXPECT_FAILS(wlkSetLights(c, 1, sizeof light - 1, &light), WLK_ERROR_INVALID_ARGUMENT, "stride");

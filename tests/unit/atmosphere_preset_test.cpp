@@ -38,9 +38,9 @@ struct Documented {
 // docs/atmospheres.md. A vertical ray through an exponential layer crosses coefficient times scale
 // height, through a whole triangle of absorber the coefficient at its peak times its half width.
 constexpr Documented DOCUMENTED[] = {
-    {WLK_ATMOSPHERE_EARTH_CLEAR, {0.0464, 0.108, 0.265}, {0.00975, 0.0282, 0.00128}, 0.05},
-    {WLK_ATMOSPHERE_EARTH_HAZY, {0.0464, 0.108, 0.265}, {0.00975, 0.0282, 0.00128}, 0.25},
-    {WLK_ATMOSPHERE_EARTH_POLLUTED, {0.0464, 0.108, 0.265}, {0.00975, 0.0282, 0.00128}, 0.7},
+    {WLK_ATMOSPHERE_EARTH_CLEAR, {0.0464, 0.108, 0.265}, {0.0405, 0.0255, 0.00128}, 0.05},
+    {WLK_ATMOSPHERE_EARTH_HAZY, {0.0464, 0.108, 0.265}, {0.0405, 0.0255, 0.00128}, 0.25},
+    {WLK_ATMOSPHERE_EARTH_POLLUTED, {0.0464, 0.108, 0.265}, {0.0405, 0.0255, 0.00128}, 0.7},
     {WLK_ATMOSPHERE_MARS, {0.00118, 0.00280, 0.00705}, {0, 0, 0}, 0.5}};
 
 TEST(AtmospherePreset, HasItsDocumentedVerticalOpticalDepths) {

@@ -214,6 +214,8 @@ vec3 absorberBend(Air air, AirPath path, AirPoint here, AirPoint next, real view
 const int MAX_SEGMENTS = 48;
 const int REFINED_SEGMENTS = 36;
 const int MAX_CUTS = 3;
+// The gas's parabola errs by more than its square where the gas ends within a segment.
+const real GAS_DOUBT = real(4.0f);
 const real REFINE = real(1.5e-3);
 const real REFINE_FLOOR = real(1e-9);
 const real REFINE_KEPT = real(0.25f);
@@ -311,9 +313,10 @@ AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, vec3 fo
                            rise);
     }
     fogBend = fogBend + bend;
+    vec3 gas = vec3(real(0.0f));
     if (ABSORBER_ENABLED) {
-      vec3 gas = absorberBend(air, path, here, next, viewColumns.z,
-                              real(0.5f) * (hereColumns.z + nextColumns.z), rise);
+      gas = absorberBend(air, path, here, next, viewColumns.z,
+                         real(0.5f) * (hereColumns.z + nextColumns.z), rise);
       bend = bend + gas;
       fogBend = fogBend + gas;
     }
@@ -345,6 +348,8 @@ AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, vec3 fo
               meanTransmittance3(hereEnd.transmittance, nextEnd.transmittance, rise);
       doubt = light * fogBend * fogBend;
     }
+
+    doubt = doubt + light * gas * gas * GAS_DOUBT;
 
     // The planet's shadow; the edges of its penumbra are stops.
     real nextLit = real(1.0f);
