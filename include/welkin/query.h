@@ -57,8 +57,8 @@ WLK_API WlkResult wlkEvalSky(WlkContext context, const WlkRayBatch* batch, doubl
 WLK_API WlkResult wlkEvalTransmittance(WlkContext context, const double from[3], const double to[3],
                                        double transmittance[3]);
 
-/** Irradiance of light `lightIndex` on a surface facing it at a world point, after air and fog:
- *  3 values. [C] */
+/** Irradiance of light `lightIndex` on a surface facing it at a world point, after air, absorber
+ *  and fog: 3 values. [C] */
 WLK_API WlkResult wlkEvalLight(WlkContext context, uint32_t lightIndex, const double position[3],
                                double irradiance[3]);
 

@@ -102,9 +102,10 @@ WLK_API WlkResult wlkInitMoon(const float toSun[3], const float toMoon[3],
                               const float sunIrradiance[3], WlkLight* moon);
 
 /** Replaces all lights: sun and moon, or two suns. Those below every horizon are left out of the
- *  frame; volumes are lit by the first of the others. A second light, and a disk that is not
- *  uniform where all were, need wlkPrepare. `stride` is the distance between elements in bytes.
- *  count 0: no light. [C] Errors: LIMIT_EXCEEDED over WlkCapabilities::maxLights. */
+ *  frame; volumes, and the air in front of them, are lit by one of the others: the first that
+ *  shines on a volume. Two lights instead of one or none, or the other way round, and a disk that
+ * is not uniform where all were, need wlkPrepare. `stride` is the distance between elements in
+ * bytes. count 0: no light. [C] Errors: LIMIT_EXCEEDED over WlkCapabilities::maxLights. */
 WLK_API WlkResult wlkSetLights(WlkContext context, uint32_t count, uint32_t stride,
                                const WlkLight* lights);
 
@@ -138,9 +139,9 @@ typedef struct WlkFog {
   uint32_t phaseModel;
   /** Particles of the layer; id 0: droplets of dropletDiameter_um. Only the phase function is
    *  taken; singleScatteringAlbedo above is the layer's. It is copied: the medium may be destroyed
-   *  afterwards. Where WlkMediumOptics::deltaFraction is not 0 (rain, ice, snow), what goes
-   *  straight on is taken off the extinction, as volumes do. Default 0, also for callers whose
-   *  structSize ends before it. */
+   *  afterwards, but setting it once more needs it. Where WlkMediumOptics::deltaFraction is not 0
+   * (rain, ice, snow), what goes straight on is taken off the extinction, as volumes do. Default 0,
+   * also for callers whose structSize ends before it. */
   WlkMedium medium;
 } WlkFog;
 
@@ -230,7 +231,8 @@ enum {
   WLK_ATMOSPHERE_MARS = 3
 };
 
-/** What an atmosphere is made of, each part as its wlkSet function or wlkCreateMedium takes it. */
+/** What an atmosphere is made of, each part as its wlkSet function or wlkCreateMedium takes it. Its
+ *  structSize tells the layout of all parts. */
 typedef struct WlkAtmospherePreset {
   uint32_t sType;
   uint32_t structSize;

@@ -71,7 +71,17 @@ void store(ivec2 place, int share, Node node, Air air, AirRay ray, float radius,
 void main() {
   ivec2 place = ivec2(gl_GlobalInvocationID.xy);
   int which = place.x / SKY_AZIMUTHS;
-  if (which >= int(LIGHT_COUNT) || place.y >= SKY_ZENITHS) {
+  if (place.x >= imageSize(skyTable).x || place.y >= SKY_ZENITHS) {
+    return;
+  }
+  if (which >= int(LIGHT_COUNT)) {
+    // Filters read a neighbour's texel with weight 0: it must be a number.
+    for (int k = 0; k < SKY_SHARES; ++k) {
+      imageStore(skyTable, ivec3(place, k), vec4(0.0f));
+      if (FOG_ENABLED) {
+        imageStore(skyPeak, ivec3(place, k), vec4(0.0f));
+      }
+    }
     return;
   }
   LightUniforms light = frame.lights[which];

@@ -46,7 +46,7 @@ WlkLight checkedLight(const WlkLight* light) {
   const WlkLight l = copyStruct(light, WLK_STRUCT_LIGHT, LIGHT_FIRST_SIZE);
   checkNoChain(light);
   checkUnit(l.sType, "direction", l.direction);
-  checkRange(l.sType, "angularDiameter", l.angularDiameter, 0, 0.2);
+  checkRange(l.sType, "angularDiameter", l.angularDiameter, 0, double{0.2f});
   checkRange3(l.sType, "irradiance", l.irradiance, 0, 1e6);
   checkRange3(l.sType, "limbDarkening", l.limbDarkening, 0, 2);
   if (l.litFrom[0] != 0 || l.litFrom[1] != 0 || l.litFrom[2] != 0) {

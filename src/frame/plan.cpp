@@ -132,18 +132,50 @@ bool lightReachesVolume(const PlanInput& in, const PlanLight& light,
   return aboveHorizon(glm::dot(frame.up, light.toLight), top, reach, radius, light.angularRadius);
 }
 
-// The lights that reach the air the eye sees; if none does, the first, which may reach a volume.
-PlanLights chooseLights(const PlanInput& in, const PlanetFrame& eye, bool& reachesAir) {
-  PlanLights chosen;
-  for (uint32_t i = 0; i < in.lights.count; ++i) {
-    const bool reaches = lightReachesAir(in, in.lights.light[i], eye);
-    reachesAir = reachesAir || reaches;
-    if (reaches || in.quality.noSkip) {
-      chosen.light[chosen.count++] = in.lights.light[i];
-    }
+// Whether the light shines on a volume itself. Half the sine's arc covers its own extent.
+bool shinesOn(const PlanInput& in, const PlanLight& light, const PlanVolume& volume) {
+  glm::dmat4x3 box = volume.worldFromBox;
+  box[3] -= in.eye;
+  const glm::dvec3 middle = box * glm::dvec4(0.5, 0.5, 0.5, 1.0);
+  double top = -1e300;
+  double reach = 0;
+  for (const glm::dvec3& corner : cornersOf(box)) {
+    top = std::max(top, planetFrameAt(in.planet, corner + in.eye).altitude);
+    reach = std::max(reach, 1.6 * glm::length(corner - middle) / double{in.planet.radius});
   }
-  if (chosen.count == 0 && in.lights.count > 0) {
-    chosen.light[chosen.count++] = in.lights.light[0];
+  const PlanetFrame frame = planetFrameAt(in.planet, middle + in.eye);
+  return volume.anyDensity && aboveHorizon(glm::dot(frame.up, light.toLight), top, reach,
+                                           in.planet.radius, light.angularRadius);
+}
+
+// The lights that reach the air the eye sees, those that shine on a volume first: it is lit by the
+// first. If none reaches the air, the first that shines on a volume, or the first of all.
+PlanLights chooseLights(const PlanInput& in, const PlanetFrame& eye, bool& reachesAir) {
+  std::array<bool, MAX_LIGHTS> reaches{};
+  std::array<bool, MAX_LIGHTS> shines{};
+  for (uint32_t i = 0; i < in.lights.count; ++i) {
+    const PlanLight& light = in.lights.light[i];
+    reaches[i] = lightReachesAir(in, light, eye);
+    reachesAir = reachesAir || reaches[i];
+    shines[i] = in.lights.count > 1 &&
+                std::any_of(in.volumes.begin(), in.volumes.end(),
+                            [&](const PlanVolume& volume) { return shinesOn(in, light, volume); });
+  }
+  PlanLights chosen;
+  const auto add = [&](bool reach, bool shine) {
+    for (uint32_t i = 0; i < in.lights.count; ++i) {
+      if (reaches[i] == reach && shines[i] == shine) {
+        chosen.light[chosen.count++] = in.lights.light[i];
+      }
+    }
+  };
+  add(true, true);
+  add(true, false);
+  const uint32_t shown = chosen.count;
+  add(false, true);
+  add(false, false);
+  if (!in.quality.noSkip) {
+    chosen.count = shown > 0 ? shown : std::min(chosen.count, 1U);
   }
   return chosen;
 }

@@ -104,9 +104,7 @@ class Recorder {
       v.multiple = plan.multiple;
       v.space = plan.space;
       v.allLight = plan.allLight;
-      // Variants are prepared for a layer as a whole: a light without a disk, or with a simpler one
-      // than is prepared, takes that of the layer; gathering by pixel is from high up only, and
-      // until then the table has to do.
+      // Variants are prepared for a layer as a whole; until one for space is, the table must do.
       vk::PipelineKey key;
       bool found = false;
       for (const bool space : {v.space, false}) {
@@ -169,24 +167,26 @@ class Recorder {
     timestamp();
   }
 
-  // The view's table of light scattered more than once, where something it depends on has changed.
+  // The view's table of further orders, where something it depends on has changed.
   void recordSkyTable() {
     ViewResources& r = view_.resources;
+    const Plan& plan = view_.plan;
     WlkPassStats stats = passStats("sky table", WLK_PASS_SKY_TABLE, 0);
-    stats.reason = view_.plan.skyReason;
-    if (view_.plan.multiple) {
+    stats.reason = plan.skyReason;
+    if (plan.multiple) {
       const bool kept = r.skyVersion == in_.sky->version && r.skyKey == skyKey_;
-      stats.reason = !kept ? WLK_REASON_NEEDED
-                           : (quality_.noSkip ? WLK_REASON_NO_SKIP_FLAG : WLK_REASON_UNCHANGED);
+      stats.reason = WLK_REASON_NEEDED;
+      if (kept) {
+        stats.reason = quality_.noSkip ? WLK_REASON_NO_SKIP_FLAG : WLK_REASON_UNCHANGED;
+      }
       if (stats.reason != WLK_REASON_UNCHANGED) {
         bindSkyTable(bindings_, pipelines_, r, slot_.skyTable, in_);
         vk_.CmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.skyLayout(),
                                   0, 1, &slot_.skyTable.set, 0, nullptr);
-        const Plan& plan = view_.plan;
         const uint32_t lights = plan.lightCount();
+        const uint32_t width = groups(interface_::SKY_AZIMUTHS * lights) + (lights < r.lights);
         dispatch(find(skyTableKey(plan.airKind(), plan.fog, lights, plan.allLight)),
-                 pipelines_.skyLayout(), nullptr, groups(interface_::SKY_AZIMUTHS * lights),
-                 groups(interface_::SKY_ZENITHS), stats, 0);
+                 pipelines_.skyLayout(), nullptr, width, groups(interface_::SKY_ZENITHS), stats, 0);
         orderShaders();
         r.skyKey = skyKey_;
         r.skyVersion = in_.sky->version;

@@ -136,7 +136,7 @@ void fillFrame(const AirState& air, const SkyLightState& sky, const ViewState& v
   out.ground = glm::vec4(vec(air.planet.groundAlbedo), 0.0f);
   out.fog.w = air.planet.radius;
   out.fog.z = 1.0f;
-  out.air.w = 1.0f;
+  out.air.w = 8000.0f;  // where fog alone is seen, steps of light that grazes follow it
   for (interface_::LightUniforms& light : out.lights) {
     light.disk.w = 1e-30f;  // no disk: keeps y / edge from 0 / 0 for a view into the light
   }

@@ -147,4 +147,30 @@ TEST_P(SkyFrom, FloatFollowsDouble) {
 INSTANTIATE_TEST_SUITE_P(Heights, SkyFrom, testing::Values(0.0, 2.0, 2e3, 1.2e4, 1e5, 3.6e7));
 INSTANTIATE_TEST_SUITE_P(Heights, AirFrom, testing::Values(0.0, 2.0, 2e3, 1.2e4));
 
+// Layers of fog from 10 m to 300 m thick, above which twilight reaches: their scale must not use
+// the segments up before the ray ends.
+TEST(SkyTwilight, ThinFogKeepsTheLightOfTheAirAbove) {
+  constexpr double THIN_P90 = 0.6 * DUSK_P90;
+  constexpr double THIN_MAX = DUSK_P90;
+  for (const double thickness : {10.0, 30.0, 100.0, 300.0}) {
+    ref::Planet planet;
+    planet.fogExtinction = 0.1 / thickness;
+    planet.fogScaleHeight = thickness;
+    ref::SkyRays rays(planet, 2.0);
+    ErrorSample errors;
+    for (const double zenith : {91.0, 93.0, 95.0}) {
+      for (int i = 0; i < 12; ++i) {
+        const double error = errorOf(rays.next(zenith, INF));
+        if (error >= 0.0) {
+          errors.add(error);
+        }
+      }
+    }
+    std::printf("  %.0f m: p90 %.2e, max %.2e of %zu\n", thickness, errors.quantile(0.9),
+                errors.max(), errors.count());
+    EXPECT_LE(errors.quantile(0.9), THIN_P90) << thickness;
+    EXPECT_LE(errors.max(), THIN_MAX) << thickness;
+  }
+}
+
 }  // namespace

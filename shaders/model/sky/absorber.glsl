@@ -21,7 +21,7 @@ struct AbsorberRay {
 AbsorberRay absorberRay(real altitude, real along, real radius, real peak, real halfWidth) {
   real square = along * along;
   real grow = real(2.0f) * radius + altitude;
-  real bottom = peak - halfWidth;
+  real bottom = max(peak - halfWidth, real(-0.5f) * radius);
   real top = peak + halfWidth;
   real q0 = square - (altitude - bottom) * (grow + bottom);
   real q1 = square - (altitude - peak) * (grow + peak);

@@ -206,9 +206,8 @@ vec3 absorberBend(Air air, AirPath path, AirPoint here, AirPoint next, real view
 
 // Where a segment may be wrong by more than REFINE it is tried again, shorter: its error is taken
 // as the light times the squares of the depth's bend and of the displacement, against the radiance
-// so far or a quarter of what any trial gave, and REFINE_FLOOR. Trials per ray (of them kept): air
-// alone, sky by day 3.0 (3.0), suns at 85 to 94 degrees 4.6 (4.2), to 50 km 1.4; air and haze 5.2
-// (4.9), 9.9 (8.0) and 2.4. One segment more per side and 2e-3 cost a fifth more by day. From
+// so far or a quarter of what any trial gave, and REFINE_FLOOR. Trials per ray: air alone, sky by
+// day 3, to 50 km 1.2; air and haze 5 and 2.4; several times as many in twilight. From
 // REFINED_SEGMENTS on all are kept, so that the remaining stops fit: 3 of each layer, the lowest
 // point, two edges of the shadow, two of the penumbra and the end.
 const int MAX_SEGMENTS = 48;
@@ -225,6 +224,36 @@ const real PENUMBRA_CHANGE = real(4e-3);
 const real PENUMBRA_BEND = real(2e-2);
 // A fog layer with less optical depth than this around the ray gets no stops.
 const real FOG_MATTERS = real(1e-4);
+
+// Fog thinner than that share of the air's scale height has no finer steps, and no step of light
+// that grazes is shorter than that of the ray: thin layers must not use all segments up.
+const real THINNEST_GRAZING = real(0.07);
+const real SHORTEST_GRAZING = real(0.01);
+// What is left of a ray is one segment where it can bring no more than this of the radiance.
+const real DIM_REST = real(1e-3);
+
+// Roughly the light of a ray that leaves the planet's shadow at `edge`, from one scale height above
+// it: what segments in the penumbra may be measured by, which have next to none.
+vec3 lightBeyond(Air air, AirPath path, AirPoint here, real edge, real airPhase, vec3 fogPhase) {
+  real radius = air.planetRadius + path.altitude;
+  real low = altitudeAlongRay(path.altitude, path.viewMu, air.planetRadius, edge);
+  low = low + air.planetRadius;
+  real rise = max((radius * path.viewMu + edge) / low, real(0.0f));
+  real way = air.airScaleHeight / (rise + sqrt(air.airScaleHeight / low));
+  real t = min(edge + way, path.reach);
+  AirPoint point = airPoint(air, path, t);
+  real lightMu = (radius * path.sunMu + t * path.viewSun) / (air.planetRadius + point.altitude);
+  AirSpan span = airSpan(air, path, here, point);
+  vec3 columns = lightColumns(air, point, clamp(lightMu, real(-1.0f), real(1.0f)));
+  vec3 source = vec3(real(0.0f));
+  if (AIR_ENABLED) {
+    source = air.airScattering * (point.air.density * airPhase);
+  }
+  if (FOG_ENABLED) {
+    source = source + air.fogAlbedo * fogPhase * (air.fogExtinction * point.fog.density);
+  }
+  return source * safeExp3(-depthOfColumns(air, columns + columnsOf(span))) * way;
+}
 
 // Light scattered once towards the ray's origin, and the ray's optical depth. `distance` may be
 // infinite; the caller ends it at the scene or at groundDistance. The light fades with
@@ -247,7 +276,7 @@ AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, vec3 fo
     real dense = layerDensity(layerExponent(low, air.fogBaseAltitude, air.fogScaleHeight));
     fogMatters = air.fogExtinction * dense * fogStops.width > FOG_MATTERS;
   }
-  real fogStep = GRAZING_FOG * air.fogScaleHeight;
+  real fogStep = max(GRAZING_FOG * air.fogScaleHeight, THINNEST_GRAZING * air.airScaleHeight);
   real grazing = fogMatters ? min(air.airScaleHeight, fogStep) : air.airScaleHeight;
   AirPoint here = airPoint(air, path, real(0.0f));
   vec3 hereColumns = lightColumns(air, here, path.sunMu);
@@ -266,6 +295,9 @@ AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, vec3 fo
   real limit = path.reach;
   int cuts = 0;
   vec3 kept = vec3(real(0.0f));
+  if (shadow.y > real(0.0f) && shadow.y < path.reach) {
+    kept = lightBeyond(air, path, here, shadow.y, airPhase, fogPhase) * REFINE_KEPT;
+  }
   AirResult result;
   result.radiance = vec3(real(0.0f));
   // A counted loop with a break: lavapipe 22.3 computes a do-while of this length wrongly for lanes
@@ -279,11 +311,22 @@ AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, vec3 fo
     bool dark = isBehind && shadow.x <= here.distance && here.distance < shadow.y;
     // No stops in the dark.
     t = dark ? path.reach : t;
-    t = dark ? t : grazingStop(air, path, here, grazing, airStops.width, t);
+    real shortest = min(t, here.distance + path.reach * SHORTEST_GRAZING);
+    t = dark ? t : max(grazingStop(air, path, here, grazing, airStops.width, t), shortest);
+    vec3 rest = vec3(real(0.0f));
+    if (AIR_ENABLED) {
+      rest = air.airScattering * (here.air.column * airPhase);
+    }
+    if (FOG_ENABLED) {
+      rest = rest + air.fogAlbedo * fogPhase * (air.fogExtinction * here.fog.column);
+    }
+    rest = rest - result.radiance * DIM_REST;
+    bool dim = here.distance >= path.lowest && max(max(rest.x, rest.y), rest.z) < real(0.0f);
+    t = dim ? path.reach : t;
     t = nearerStop(path.lowest, here.distance, t);
     t = nearerStop(shadow.x, here.distance, t);
     t = nearerStop(shadow.y, here.distance, t);
-    t = segment + 1 < MAX_SEGMENTS ? min(t, limit) : path.reach;
+    t = segment + 1 < MAX_SEGMENTS && !dim ? min(t, limit) : path.reach;
     real length = t - here.distance;
 
     AirPoint next = airPoint(air, path, t);
@@ -374,7 +417,7 @@ AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, vec3 fo
     real error = max(max(errors.x, errors.y), errors.z);
 
     bool refines = segment < REFINED_SEGMENTS;
-    bool accepted = !refines || !(error > REFINE) || cuts >= MAX_CUTS;
+    bool accepted = dim || !refines || !(error > REFINE) || cuts >= MAX_CUTS;
     // The error falls with the fifth power of the length.
     real shorter = error > real(30.0f) * REFINE ? real(0.25f) : real(0.5f);
     real longer = error > real(0.03) * REFINE ? real(1.3) : real(2.0f);
