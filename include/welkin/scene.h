@@ -102,10 +102,11 @@ WLK_API WlkResult wlkInitMoon(const float toSun[3], const float toMoon[3],
                               const float sunIrradiance[3], WlkLight* moon);
 
 /** Replaces all lights: sun and moon, or two suns. Those below every horizon are left out of the
- *  frame; volumes, and the air in front of them, are lit by one of the others: the first that
- *  shines on a volume. Two lights instead of one or none, or the other way round, and a disk that
- * is not uniform where all were, need wlkPrepare. `stride` is the distance between elements in
- * bytes. count 0: no light. [C] Errors: LIMIT_EXCEEDED over WlkCapabilities::maxLights. */
+ *  frame; volumes, and the air in front of them, are lit by one of the others: the one that is
+ *  brightest there, twilight included. Two lights instead of one or none, or the other way round,
+ *  and a disk that is not uniform where all were, need wlkPrepare. `stride` is the distance between
+ *  elements in bytes. count 0: no light.
+ *  [C] Errors: LIMIT_EXCEEDED over WlkCapabilities::maxLights. */
 WLK_API WlkResult wlkSetLights(WlkContext context, uint32_t count, uint32_t stride,
                                const WlkLight* lights);
 
@@ -140,8 +141,8 @@ typedef struct WlkFog {
   /** Particles of the layer; id 0: droplets of dropletDiameter_um. Only the phase function is
    *  taken; singleScatteringAlbedo above is the layer's. It is copied: the medium may be destroyed
    *  afterwards, but setting it once more needs it. Where WlkMediumOptics::deltaFraction is not 0
-   * (rain, ice, snow), what goes straight on is taken off the extinction, as volumes do. Default 0,
-   * also for callers whose structSize ends before it. */
+   *  (rain, ice, snow), what goes straight on is taken off the extinction, as volumes do. Default
+   *  0, also for callers whose structSize ends before it. */
   WlkMedium medium;
 } WlkFog;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "api/plan_input.hpp"
 
+#include <algorithm>
+
 namespace welkin {
 
 PlanInput planInput(const WlkContext_T& c, const ViewState& view) {
@@ -25,6 +27,7 @@ PlanInput planInput(const WlkContext_T& c, const ViewState& view) {
       one.toLight =
           glm::normalize(glm::dvec3(light.direction[0], light.direction[1], light.direction[2]));
       one.angularRadius = 0.5 * light.angularDiameter;
+      one.irradiance = *std::max_element(light.irradiance, light.irradiance + 3);
       one.shaped = hasShapedDisk(light);
     }
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "model/model.hpp"
 
@@ -35,6 +36,13 @@ bool lightReachesAir(const PlanInput& in, const PlanLight& light, const PlanetFr
   const double top = std::max(airTop(in), eye.altitude);
   const double reach = horizonDip(eye.altitude, radius) + horizonDip(top, radius);
   return aboveHorizon(glm::dot(eye.up, light.toLight), top, reach, radius, light.angularRadius);
+}
+
+// To positions relative to the eye.
+glm::dmat4x3 relativeBox(const PlanInput& in, const PlanVolume& volume) {
+  glm::dmat4x3 box = volume.worldFromBox;
+  box[3] -= in.eye;
+  return box;
 }
 
 std::array<glm::dvec3, 8> cornersOf(const glm::dmat4x3& box) {
@@ -111,71 +119,89 @@ PixelRect unite(const PixelRect& a, const PixelRect& b) {
   return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
-// Whether the light may reach the box (`corners` relative to the eye, at most `top` m high) or the
-// air between it and the eye, which the volume's passes shade as well.
-bool lightReachesVolume(const PlanInput& in, const PlanLight& light,
-                        const std::array<glm::dvec3, 8>& corners, double top) {
-  const double radius = in.planet.radius;
+// Where a box (corners relative to the eye) stands on the planet.
+struct VolumePlace {
+  PlanetFrame middle;
+  double top = -1e300;  // m
+  double reach = 0;     // by which the local up turns at most from the middle: asin x <= 1.6 x
+};
+
+VolumePlace placeOf(const PlanInput& in, const std::array<glm::dvec3, 8>& corners) {
   const glm::dvec3 middle = 0.5 * (corners[0] + corners[7]);
-  const PlanetFrame frame = planetFrameAt(in.planet, middle + in.eye);
-  // The local up turns by this from the middle to any other point: asin x <= 1.6 x.
-  double reach = 0;
+  VolumePlace place;
+  place.middle = planetFrameAt(in.planet, middle + in.eye);
   for (const glm::dvec3& corner : corners) {
-    reach = std::max(reach, 1.6 * glm::length(corner - middle) / radius);
+    place.top = std::max(place.top, planetFrameAt(in.planet, corner + in.eye).altitude);
+    place.reach = std::max(place.reach, 1.6 * glm::length(corner - middle) / in.planet.radius);
   }
-  if ((in.sky && (in.layers & WLK_LAYER_SKY) != 0) ||
-      (in.fog && (in.layers & WLK_LAYER_FOG) != 0)) {
+  return place;
+}
+
+bool showsAir(const PlanInput& in) {
+  return (in.sky && (in.layers & WLK_LAYER_SKY) != 0) ||
+         (in.fog && (in.layers & WLK_LAYER_FOG) != 0);
+}
+
+// Whether the light may reach the box or the air between it and the eye, which the volume's passes
+// shade as well.
+bool lightReachesVolume(const PlanInput& in, const PlanLight& light, VolumePlace place) {
+  const glm::dvec3 up = place.middle.up;
+  if (showsAir(in)) {
     const PlanetFrame eye = planetFrameAt(in.planet, in.eye);
-    reach += std::acos(std::clamp(glm::dot(frame.up, eye.up), -1.0, 1.0));
-    top = std::max(top, std::min(eye.altitude, airTop(in)));
+    place.reach += std::acos(std::clamp(glm::dot(up, eye.up), -1.0, 1.0));
+    place.top = std::max(place.top, std::min(eye.altitude, airTop(in)));
   }
-  return aboveHorizon(glm::dot(frame.up, light.toLight), top, reach, radius, light.angularRadius);
+  return aboveHorizon(glm::dot(up, light.toLight), place.top, place.reach, in.planet.radius,
+                      light.angularRadius);
 }
 
-// Whether the light shines on a volume itself. Half the sine's arc covers its own extent.
-bool shinesOn(const PlanInput& in, const PlanLight& light, const PlanVolume& volume) {
-  glm::dmat4x3 box = volume.worldFromBox;
-  box[3] -= in.eye;
-  const glm::dvec3 middle = box * glm::dvec4(0.5, 0.5, 0.5, 1.0);
-  double top = -1e300;
-  double reach = 0;
-  for (const glm::dvec3& corner : cornersOf(box)) {
-    top = std::max(top, planetFrameAt(in.planet, corner + in.eye).altitude);
-    reach = std::max(reach, 1.6 * glm::length(corner - middle) / double{in.planet.radius});
-  }
-  const PlanetFrame frame = planetFrameAt(in.planet, middle + in.eye);
-  return volume.anyDensity && aboveHorizon(glm::dot(frame.up, light.toLight), top, reach,
-                                           in.planet.radius, light.angularRadius);
+// Roughly the light on and around a box, to tell the lights' order by: all of it, or that of
+// twilight, 4e-3 of it and ten times less with each 2.5 degrees (400 lx with the sun at the
+// horizon, 0.01 lx at -12 degrees).
+double brightnessAt(const PlanInput& in, const PlanLight& light, const VolumePlace& place) {
+  constexpr double DEGREE = std::numbers::pi / 180;
+  const double mu = std::clamp(glm::dot(place.middle.up, light.toLight), -1.0, 1.0);
+  const double above =
+      std::asin(mu) + light.angularRadius + place.reach + horizonDip(place.top, in.planet.radius);
+  const double twilight = showsAir(in) ? 4e-3 * std::pow(10.0, above / (2.5 * DEGREE)) : 0.0;
+  return light.irradiance * (above > 0 ? 1.0 : twilight);
 }
 
-// The lights that reach the air the eye sees, those that shine on a volume first: it is lit by the
-// first. If none reaches the air, the first that shines on a volume, or the first of all.
+// The lights that reach the air the eye sees, the brightest on a volume first: volumes are lit by
+// the first. If none reaches the air, only the brightest.
 PlanLights chooseLights(const PlanInput& in, const PlanetFrame& eye, bool& reachesAir) {
-  std::array<bool, MAX_LIGHTS> reaches{};
-  std::array<bool, MAX_LIGHTS> shines{};
+  struct Candidate {
+    PlanLight light;
+    bool reaches = false;
+    double brightness = 0;
+  };
+  std::array<Candidate, MAX_LIGHTS> candidates;
+  const auto end = candidates.begin() + in.lights.count;
   for (uint32_t i = 0; i < in.lights.count; ++i) {
-    const PlanLight& light = in.lights.light[i];
-    reaches[i] = lightReachesAir(in, light, eye);
-    reachesAir = reachesAir || reaches[i];
-    shines[i] = in.lights.count > 1 &&
-                std::any_of(in.volumes.begin(), in.volumes.end(),
-                            [&](const PlanVolume& volume) { return shinesOn(in, light, volume); });
-  }
-  PlanLights chosen;
-  const auto add = [&](bool reach, bool shine) {
-    for (uint32_t i = 0; i < in.lights.count; ++i) {
-      if (reaches[i] == reach && shines[i] == shine) {
-        chosen.light[chosen.count++] = in.lights.light[i];
+    Candidate& one = candidates[i];
+    one.light = in.lights.light[i];
+    one.reaches = lightReachesAir(in, one.light, eye);
+    reachesAir = reachesAir || one.reaches;
+    for (const PlanVolume& volume : in.volumes) {
+      if (in.lights.count > 1 && volume.anyDensity) {
+        const VolumePlace place = placeOf(in, cornersOf(relativeBox(in, volume)));
+        one.brightness = std::max(one.brightness, brightnessAt(in, one.light, place));
       }
     }
-  };
-  add(true, true);
-  add(true, false);
-  const uint32_t shown = chosen.count;
-  add(false, true);
-  add(false, false);
-  if (!in.quality.noSkip) {
-    chosen.count = shown > 0 ? shown : std::min(chosen.count, 1U);
+  }
+  // Insertion: std::stable_sort allocates.
+  for (auto next = candidates.begin(); next != end; ++next) {
+    const auto place = std::upper_bound(
+        candidates.begin(), next, *next, [](const Candidate& a, const Candidate& b) {
+          return a.reaches != b.reaches ? a.reaches : a.brightness > b.brightness;
+        });
+    std::rotate(place, next, next + 1);
+  }
+  PlanLights chosen;
+  for (auto one = candidates.begin(); one != end; ++one) {
+    if (one->reaches || chosen.count == 0 || in.quality.noSkip) {
+      chosen.light[chosen.count++] = one->light;
+    }
   }
   return chosen;
 }
@@ -184,8 +210,7 @@ PlannedVolume planVolume(const PlanInput& in, const PlanLights& lights, const Pl
   PlannedVolume result{};
   result.id = volume.id;
   result.index = volume.index;
-  glm::dmat4x3 box = volume.worldFromBox;
-  box[3] -= in.eye;
+  const glm::dmat4x3 box = relativeBox(in, volume);
   const std::array<glm::dvec3, 8> corners = cornersOf(box);
   result.rect =
       contains(box, glm::dvec3(0)) ? PixelRect{0, 0, in.width, in.height} : coverOf(corners, in);
@@ -208,13 +233,9 @@ PlannedVolume planVolume(const PlanInput& in, const PlanLights& lights, const Pl
   if (!result.drawn) {
     return result;
   }
-  double top = -1e300;
-  for (const glm::dvec3& corner : corners) {
-    top = std::max(top, planetFrameAt(in.planet, corner + in.eye).altitude);
-  }
   const glm::dvec3 middle = box * glm::dvec4(0.5, 0.5, 0.5, 1.0);
   const PlanLight& light = lights.light[0];
-  result.lit = lights.count > 0 && lightReachesVolume(in, light, corners, top);
+  result.lit = lights.count > 0 && lightReachesVolume(in, light, placeOf(in, corners));
   if (!result.lit) {
     if (in.quality.noSkip && lights.count > 0) {
       result.lit = true;

@@ -65,9 +65,10 @@ struct PlanLight {
   uint32_t index = 0;  // in the order the engine set them
   glm::dvec3 toLight{0, 1, 0};
   double angularRadius = 0;
-  bool shaped = false;  // its disk is not uniform
+  double irradiance = 0;  // of the brightest colour
+  bool shaped = false;    // its disk is not uniform
 };
-// Those that reach the air, in order; all where none is to be skipped.
+// Those that reach the air, the brightest on a volume first; all where none is to be skipped.
 struct PlanLights {
   std::array<PlanLight, MAX_LIGHTS> light;
   uint32_t count = 0;

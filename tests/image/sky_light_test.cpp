@@ -325,6 +325,30 @@ TEST_F(SkyLightTurned, TheMoonLightsACloudAtNight) {
   }
 }
 
+// In dusk the air in front of a cloud is the sun's still; were it the moon's, the picture would
+// change by 7e-3.
+TEST_F(SkyLightTurned, TheMoonDoesNotPutOutTheDusk) {
+  constexpr double MOONLIGHT = 1e-3;  // ten times what the moon adds
+  scene.setSky();
+  scene.addBall(0.01f);
+  scene.setSun(-3, 10);
+  check(wlkPrepare(scene.context));
+  const Image alone = scene.render();
+  WlkLight lights[2] = {make<WlkLight>(), make<WlkLight>()};
+  const double elevation = -3 * std::numbers::pi / 180;
+  const double azimuth = 10 * std::numbers::pi / 180;
+  lights[0].direction[0] = static_cast<float>(std::cos(elevation) * std::sin(azimuth));
+  lights[0].direction[1] = static_cast<float>(std::sin(elevation));
+  lights[0].direction[2] = static_cast<float>(-std::cos(elevation) * std::cos(azimuth));
+  std::fill_n(lights[1].irradiance, 3, 2.5e-6f);
+  check(wlkSetLights(scene.context, 2, sizeof *lights, lights));
+  check(wlkPrepare(scene.context));
+  EXPECT_GT(alone.mean(), 1e-5);
+  const double change = relativeRms(scene.render(), alone);
+  std::printf("the moon changes %.2e\n", change);
+  EXPECT_LE(change, MOONLIGHT);
+}
+
 TEST_F(SkyLightPicture, FromSpaceFollowsTheQuery) {
   scene.setSky();
   for (const Station& from : {Station{130000, -10}, {400000, -20}, {36e6, -87}}) {
