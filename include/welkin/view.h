@@ -106,7 +106,9 @@ enum {
    *  orders in air and fog. */
   WLK_SCATTERING_FORWARD = 2,
   /** The same with the paper's whole number of scatterings, ceil(n), for comparison. */
-  WLK_SCATTERING_FORWARD_INTEGER = 3
+  WLK_SCATTERING_FORWARD_INTEGER = 3,
+  /** All orders: the first exactly, the others on a grid of cells inside each volume. */
+  WLK_SCATTERING_ALL_ORDERS = 4
 };
 
 enum {
@@ -212,7 +214,9 @@ enum {
   WLK_PASS_EYE_SLICES = 2,
   WLK_PASS_COMPOSITE = 3,
   /** Light of the sky scattered more than once, by direction. */
-  WLK_PASS_SKY_TABLE = 4
+  WLK_PASS_SKY_TABLE = 4,
+  /** Light inside a volume that was scattered before (WLK_SCATTERING_ALL_ORDERS). */
+  WLK_PASS_VOLUME_LIGHT = 5
 };
 
 /** Why a pass was recorded or not. */

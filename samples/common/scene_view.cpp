@@ -22,7 +22,7 @@ WlkQuality parseQuality(const JsonNode& node) {
   }
   if (node.has("scattering")) {
     quality.scattering =
-        node.at("scattering").word({"default", "single", "forward", "forward-integer"});
+        node.at("scattering").word({"default", "single", "forward", "forward-integer", "all-orders"});
   }
   if (node.has("noSkip") && node.at("noSkip").boolean()) {
     quality.flags |= WLK_QUALITY_NO_SKIP;

@@ -7,7 +7,8 @@ struct VolumeUniforms {
   vec4 lightV;           // light-buffer v
   vec4 plane;            // plane coordinate c = dot(p, xyz) + w
   vec4 texelOrigin;      // box position of light texel ray (u, v) at c: origin + u A + v B + c C
-  vec4 texelA;           //   w of these four: unused, light path per slab (m), slab count, step (m)
+  vec4 texelA;           //   w of these four: extinction without the peaks over extinction, light
+                         //   path per slab (m), slab count, step (m)
   vec4 texelB;
   vec4 texelC;
   vec4 extinctionScale;  // per field: extinction (1/m) at value 1

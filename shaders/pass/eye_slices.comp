@@ -15,7 +15,9 @@ layout(constant_id = 4) const bool FORWARD_SCATTERING = true;
 layout(constant_id = 5) const bool DEPTH_ENABLED = true;
 // Clear air: all of its light comes from the table.
 layout(constant_id = 6) const bool ALL_LIGHT = false;
-const bool MULTIPLE_ENABLED = FORWARD_SCATTERING;
+// Light scattered before comes from a grid; what forward peaks turn counts as passing.
+layout(constant_id = 7) const bool TRANSPORT = false;
+layout(constant_id = 8) const bool MULTIPLE_ENABLED = true;
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
 layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volume; };
@@ -31,6 +33,7 @@ layout(set = 0, binding = 11, std430) buffer VolumeState { vec4 volumeState[]; }
 layout(set = 0, binding = 12, std430) readonly buffer FogCurve { vec4 fogCurve[]; };
 layout(set = 0, binding = 13) uniform sampler3D skyTable;
 layout(set = 0, binding = 14) uniform sampler3D skyPeak;
+layout(set = 0, binding = 15) uniform sampler3D viewSource;
 layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "../interface/sky_table.glsl"
@@ -55,9 +58,17 @@ vec3 fieldSource(uint field, float depth, float angle) {
 
 // Radiance scattered towards the eye per unit irradiance: sum of the fields' extinction * albedo *
 // light * phase. Of the four `single`, values of single scattering.
-vec3 scatteredLight(vec4 extinction, vec3 single[4], vec2 light, float angle) {
+// `eyeDepth`: optical depth to the eye, as far as it is known.
+vec3 scatteredLight(vec4 extinction, vec3 single[4], vec2 light, float angle, float eyeDepth) {
   float tau = light.x;
   vec3 sum = vec3(0.0f);
+  if (TRANSPORT) {
+    for (uint i = 0u; i < FIELD_COUNT; ++i) {
+      float turned = (tau + eyeDepth) * volume.meanAlbedo[i];
+      sum += volume.albedo[i].xyz * fieldSource(i, depthCoordinate(turned), angle) * extinction[i];
+    }
+    return sum * exp(-min(tau * volume.texelOrigin.w, 80.0f));
+  }
   if (!FORWARD_SCATTERING) {
     for (int i = 0; i < int(FIELD_COUNT); ++i) {
       sum += volume.albedo[i].xyz * single[i] * extinction[i];
@@ -115,7 +126,7 @@ void main() {
     for (int i = 0; i < 4; ++i) {
       single[i] = vec3(0.0f);
     }
-    if (LIGHT_ENABLED && !FORWARD_SCATTERING) {
+    if (LIGHT_ENABLED && !FORWARD_SCATTERING && !TRANSPORT) {
       for (int i = 0; i < int(FIELD_COUNT); ++i) {
         single[i] = fieldSource(uint(i), 0.0f, angle);
       }
@@ -134,20 +145,33 @@ void main() {
     uint left = uint(clamp(ceil((stop - t) / maxStep), 1.0f, float(MAX_SUBSTEPS)));
     float dt = max(stop - t, 0.0f) / float(left);
     uint guard = 0u;
+    float eyeDepth = 0.0f;
+    if (TRANSPORT && rate > 0.0f) {
+      eyeDepth = -log(max(state.w, 1.0e-20f)) / volume.texelOrigin.w;
+    }
     do {
       float middle = t + 0.5f * dt;
       vec4 extinction = fieldExtinction(boxOrigin + middle * boxStep);
       float beta = extinction.x + extinction.y + extinction.z + extinction.w;
       float x = beta * dt;
+      if (TRANSPORT) {
+        x *= volume.texelOrigin.w;
+      }
       vec3 source = vec3(0.0f);
       AirAt air = airAt(nodes, middle);
       if (LIGHT_ENABLED) {
         vec3 at = lightOrigin + middle * lightStep;
         at.z = (at.z - float(slice.firstSlab) + 0.5f) / layers;
         vec2 light = textureLod(lightBuffer, at, 0.0f).xy;
-        source = scatteredLight(extinction, single, light, angle) * air.light;
+        source = scatteredLight(extinction, single, light, angle, eyeDepth + 0.5f * beta * dt);
+        if (TRANSPORT) {
+          vec3 more = textureLod(viewSource, boxOrigin + middle * boxStep, 0.0f).xyz;
+          source += more * (beta * volume.texelOrigin.w);
+        }
+        source *= air.light;
+        eyeDepth += beta * dt;
       }
-      float average = phi1(x) * dt;  // (1 - e^-x) / beta without the division
+      float average = phi1(x) * dt;  // (1 - e^-x) / extinction without the division
       float opacity = x * phi1(x);
       batch.xyz += batch.w * (source * average * air.transmittance + air.radiance * opacity);
       batch.w *= 1.0f - opacity;

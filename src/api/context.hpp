@@ -29,7 +29,7 @@ struct Retired {
   uint64_t frame = 0;
   ViewResources view;
   std::array<vk::Image, WLK_MAX_FIELDS + SCATTERING_FORMS> images;
-  std::array<vk::Buffer, SCATTERING_FORMS> buffers;
+  std::array<vk::Buffer, SCATTERING_FORMS + 1> buffers;
 };
 
 // Light of all orders with what it was made of.

@@ -213,6 +213,7 @@ void recordUpdate(WlkContext_T& c, VkCommandBuffer commands) {
   }
   for (PendingUpload& upload : c.pending) {
     VolumeState& volume = *c.volumes.find(upload.volumeId);
+    ++volume.version;
     vk::Image& image = volume.fields[upload.field].image;
     copyInto(vk, commands, upload.staging, image, upload.region, partial(upload.region, image));
     c.bytesUploaded += upload.staging.size();
@@ -322,8 +323,8 @@ WlkResult wlkPrepare(WlkContext context) {
                   {counts.data(), kinds}, &c.memory);
       view->plan.volumes.reserve(c.volumes.count());
       view->planVolumes.reserve(c.volumes.count());
-      view->record.passes.reserve(2 + 2 * size_t{c.volumes.count()});
-      view->record.times.reserve(2 + 2 * size_t{c.volumes.count()});
+      view->record.passes.reserve(2 + 3 * size_t{c.volumes.count()});
+      view->record.times.reserve(2 + 3 * size_t{c.volumes.count()});
       c.retireView(*view);
       std::swap(view->resources, carrier.resources);
       view->prepared = true;

@@ -96,6 +96,7 @@ WlkResult wlkDestroyVolume(WlkContext context, WlkVolume volume) {
       entry.images[WLK_MAX_FIELDS + form] = std::move(state.tables[form].image);
       entry.buffers[form] = std::move(state.tables[form].staging);
     }
+    entry.buffers[SCATTERING_FORMS] = std::move(state.pairTable);
     std::erase_if(c.pending, [&](const PendingUpload& p) { return p.volumeId == volume.id; });
     c.volumes.destroy(volume.id);
     c.forgetBindings();

@@ -134,7 +134,7 @@ WlkQuality checkedQuality(const WlkQuality* quality) {
     checkRange(q.sType, "lightBufferSize", q.lightBufferSize, 16, 2048);
   }
   checkRange(q.sType, "slicing", q.slicing, 0, WLK_SLICING_LIGHT_ALIGNED);
-  checkRange(q.sType, "scattering", q.scattering, 0, WLK_SCATTERING_FORWARD_INTEGER);
+  checkRange(q.sType, "scattering", q.scattering, 0, WLK_SCATTERING_ALL_ORDERS);
   if ((q.flags & ~uint64_t{WLK_QUALITY_NO_SKIP}) != 0) {
     fail(WLK_ERROR_INVALID_ARGUMENT, q.sType, "flags", "WlkQuality::flags has unknown bits");
   }

@@ -253,16 +253,16 @@ PlannedVolume planVolume(const PlanInput& in, const PlanLights& lights, const Pl
 
 SliceQuality resolveQuality(const WlkQuality& quality) {
   struct Level {
-    uint32_t sliceCount, batchSize, lightSize, slicing, scattering;
+    uint32_t sliceCount, batchSize, lightSize, slicing, scattering, transportCells;
   };
   // Points of the measured front of time and error (docs/accuracy-and-performance.md). Poisson
   // counts cost what the paper's whole numbers do, with less error: every level takes them.
   constexpr uint32_t ALIGNED = WLK_SLICING_LIGHT_ALIGNED;
   constexpr uint32_t FORWARD = WLK_SCATTERING_FORWARD;
-  constexpr std::array<Level, 4> LEVELS{{{32, 32, 96, ALIGNED, FORWARD},
-                                         {64, 64, 160, ALIGNED, FORWARD},
-                                         {128, 64, 256, ALIGNED, FORWARD},
-                                         {256, 64, 448, ALIGNED, FORWARD}}};
+  constexpr std::array<Level, 4> LEVELS{{{32, 32, 96, ALIGNED, FORWARD, 12},
+                                         {64, 64, 160, ALIGNED, FORWARD, 16},
+                                         {128, 64, 256, ALIGNED, FORWARD, 24},
+                                         {256, 64, 448, ALIGNED, FORWARD, 32}}};
   const Level& level = LEVELS[quality.level];
   const auto either = [](uint32_t chosen, uint32_t usual) { return chosen != 0 ? chosen : usual; };
   const uint32_t scattering = either(quality.scattering, level.scattering);
@@ -271,9 +271,12 @@ SliceQuality resolveQuality(const WlkQuality& quality) {
   result.batchSize = std::min(either(quality.batchSize, level.batchSize), result.sliceCount);
   result.lightSize = either(quality.lightBufferSize, level.lightSize);
   result.halfAngle = either(quality.slicing, level.slicing) == WLK_SLICING_HALF_ANGLE;
-  result.forwardScattering = scattering != WLK_SCATTERING_SINGLE;
+  result.transport = scattering == WLK_SCATTERING_ALL_ORDERS;
+  result.transportCells = level.transportCells;
+  result.forwardScattering =
+      scattering == WLK_SCATTERING_FORWARD || scattering == WLK_SCATTERING_FORWARD_INTEGER;
   result.wholeOrders = scattering == WLK_SCATTERING_FORWARD_INTEGER;
-  result.multipleSky = result.forwardScattering;
+  result.multipleSky = scattering != WLK_SCATTERING_SINGLE;
   result.noSkip = (quality.flags & WLK_QUALITY_NO_SKIP) != 0;
   return result;
 }

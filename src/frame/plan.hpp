@@ -24,9 +24,12 @@ struct SliceQuality {
   bool forwardScattering;
   bool wholeOrders;  // ceil(n) scatterings instead of Poisson counts
   bool noSkip;
+  // Light inside volumes on a grid of `transportCells` along each axis; excludes forwardScattering.
+  bool transport;
+  uint32_t transportCells;
   bool multipleSky;  // light scattered more than once in air and fog
   // Index of the scattering tables.
-  uint32_t form() const { return forwardScattering && wholeOrders ? 1 : 0; }
+  uint32_t form() const { return transport ? 2 : (forwardScattering && wholeOrders ? 1 : 0); }
 };
 SliceQuality resolveQuality(const WlkQuality& quality);
 

@@ -8,6 +8,7 @@
 #include "frame/bindings.hpp"
 #include "frame/resources.hpp"
 #include "frame/sky_bindings.hpp"
+#include "frame/transport_record.hpp"
 
 namespace welkin {
 namespace {
@@ -30,7 +31,8 @@ class Recorder {
  public:
   Recorder(vk::Device& device, const vk::Pipelines& pipelines, VkCommandBuffer commands,
            ViewState& view, const RecordInput& input, const ViewTargets& targets)
-      : vk_(device.vk()),
+      : device_(device),
+        vk_(device.vk()),
         pipelines_(pipelines),
         commands_(commands),
         view_(view),
@@ -69,7 +71,7 @@ class Recorder {
     const Plan& plan = view_.plan;
     return eyeKey(
         {plan.airKind(), plan.fog, planned.lit, static_cast<bool>(targets_.depth), plan.allLight},
-        volumeOf(planned).state->fieldCount, quality_.forwardScattering);
+        volumeOf(planned).state->fieldCount, quality_);
   }
 
   VkPipeline find(const vk::PipelineKey& key) const {
@@ -87,7 +89,13 @@ class Recorder {
     for (const PlannedVolume& volume : plan.volumes) {
       if (volume.drawn) {
         find(eyeKeyOf(volume));
-        find(lightKey(volumeOf(volume).state->fieldCount, quality_.forwardScattering));
+        const uint32_t fields = volumeOf(volume).state->fieldCount;
+        find(lightKey(fields, quality_.forwardScattering));
+        for (const vk::Pass pass : TRANSPORT_PASSES) {
+          if (quality_.transport && volume.lit) {
+            find(transportKey(pass, fields));
+          }
+        }
       }
     }
     if (plan.multiple) {
@@ -156,7 +164,8 @@ class Recorder {
             GENERAL_STATE);
       light.layout = VK_IMAGE_LAYOUT_GENERAL;
     }
-    for (vk::Image* table : {&view_.resources.skyTable, &view_.resources.skyPeak}) {
+    for (vk::Image* table : {&view_.resources.skyTable, &view_.resources.skyPeak,
+                             &view_.resources.viewSource}) {
       if (*table && table->layout == VK_IMAGE_LAYOUT_UNDEFINED) {
         image(table->handle(), VK_IMAGE_ASPECT_COLOR_BIT,
               {VK_IMAGE_LAYOUT_UNDEFINED, 0, VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE},
@@ -240,6 +249,9 @@ class Recorder {
     WlkPassStats eye = passStats("eye slices", WLK_PASS_EYE_SLICES, planned.id);
     light.reason = planned.lightReason;
     eye.reason = planned.eyeReason;
+    if (quality_.transport) {
+      recordVolumeLight(planned);
+    }
     const auto lightIndex = static_cast<uint32_t>(view_.record.passes.size());
     if (planned.drawn) {
       const auto rank = static_cast<uint32_t>(&planned - view_.plan.volumes.data());
@@ -276,12 +288,37 @@ class Recorder {
     view_.record.passes.push_back(eye);
   }
 
+  void recordVolumeLight(const PlannedVolume& planned) {
+    WlkPassStats stats = passStats("volume light", WLK_PASS_VOLUME_LIGHT, planned.id);
+    stats.reason = planned.lightReason;
+    if (planned.drawn && planned.lit) {
+      const auto rank = static_cast<uint32_t>(&planned - view_.plan.volumes.data());
+      orderShaders();
+      const TransportCommands made =
+          recordTransport(device_, pipelines_, commands_, view_, planned, in_, bindings_,
+                          volumeOffset(rank), quality_.noSkip);
+      stats.reason = made.computed ? planned.lightReason : uint32_t{WLK_REASON_UNCHANGED};
+      stats.recorded = 1;
+      stats.commands = made.dispatches;
+      stats.invocations = made.invocations;
+      view_.record.stats.dispatches += made.dispatches;
+      view_.record.stats.barriers += made.barriers;
+      timestamp(static_cast<uint32_t>(view_.record.passes.size()));
+    }
+    view_.record.passes.push_back(stats);
+  }
+
+  VkDeviceSize volumeOffset(uint32_t rank) const {
+    const ViewResources& r = view_.resources;
+    return (in_.slot + 1) * r.slotStride - (r.volumeCapacity - rank) * r.volumeStride;
+  }
+
   void bindVolume(const PlannedVolume& planned, uint32_t rank) {
     const RecordVolume& volume = volumeOf(planned);
     const ViewResources& r = view_.resources;
     BoundSet& set = slot_.volumes[rank];
     const VkDeviceSize base = in_.slot * r.slotStride;
-    const VkDeviceSize offset = base + r.slotStride - (r.volumeCapacity - rank) * r.volumeStride;
+    const VkDeviceSize offset = volumeOffset(rank);
     VolumeUniforms uniforms;
     const glm::dvec3 eye(view_.camera.position[0], view_.camera.position[1],
                          view_.camera.position[2]);
@@ -316,6 +353,10 @@ class Recorder {
     bindings_.image(set, vk::BIND_DEPTH, targets_.depth ? targets_.depth.view : in_.dummy2d,
                     pipelines_.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     bindSkyLookup(bindings_, pipelines_, r, set, {vk::BIND_SKY_TABLE, vk::BIND_SKY_PEAK}, in_);
+    bindings_.image(set, vk::BIND_VIEW_SOURCE, r.viewSource ? r.viewSource.view() : in_.dummy3d,
+                    pipelines_.linear(),
+                    r.viewSource ? VK_IMAGE_LAYOUT_GENERAL
+                                 : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     const vk::Buffer& volumeState = r.volumeState ? r.volumeState : r.frameState;
     bindings_.buffer(set, vk::BIND_FRAME_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                      r.frameState.handle(), 0, r.frameState.size());
@@ -475,6 +516,7 @@ class Recorder {
     return view_.resources.counters.size() / view_.resources.slots.size() * in_.slot;
   }
 
+  const vk::Device& device_;
   const vk::Dispatch& vk_;
   const vk::Pipelines& pipelines_;
   VkCommandBuffer commands_;

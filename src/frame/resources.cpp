@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "failure.hpp"
+#include "frame/transport.hpp"
 #include "frame/uniforms.hpp"
 #include "tables/scattering_orders.hpp"
+#include "tables/transport_phase.hpp"
 
 namespace welkin {
 namespace {
@@ -50,12 +52,12 @@ class Draft {
 };
 
 VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t volumes) {
-  const uint32_t sets = slots * (volumes + 2);
+  const uint32_t sets = slots * (2 * volumes + 2);
   const std::array sizes{
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, slots * (2 * volumes + 2)},
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, slots * (3 * volumes + 3)},
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, slots * (volumes + 4)},
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, slots * (9 * volumes + 6)}};
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, slots * (4 * volumes + 2)},
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, slots * (6 * volumes + 3)},
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, slots * (2 * volumes + 4)},
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, slots * (14 * volumes + 6)}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.maxSets = sets;
   info.poolSizeCount = static_cast<uint32_t>(sizes.size());
@@ -90,8 +92,12 @@ void makeSlots(vk::Device& device, const vk::Pipelines& pipelines, ViewResources
     for (BoundSet& set : slot.volumes) {
       set.set = makeSet(device, r.pool, pipelines.volumeSetLayout());
     }
+    slot.transport.resize(r.grids.size());
+    for (BoundSet& set : slot.transport) {
+      set.set = makeSet(device, r.pool, pipelines.transportSetLayout());
+    }
     slot.passOfQuery.reserve(r.queryCount);
-    slot.passes.reserve(2 + 2 * size_t{r.volumeCapacity});
+    slot.passes.reserve(2 + 3 * size_t{r.volumeCapacity});
     VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
     info.queryCount = r.queryCount;
@@ -122,6 +128,23 @@ void makeSkyTables(vk::Device& device, const SceneFeatures& features, ViewResour
   }
 }
 
+void makeTransport(vk::Device& device, const SliceQuality& quality, uint32_t volumes,
+                   ViewResources& r) {
+  const TransportSizes sizes = transportSizes(quality.transportCells);
+  r.transportWork = vk::Buffer(device, sizes.workBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
+  r.grids.resize(volumes);
+  for (TransportGrid& grid : r.grids) {
+    grid.kept = vk::Buffer(device, sizes.keptBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
+    grid.key.reserve(sizeof(interface_::TransportUniforms) + 2 * sizeof(uint64_t));
+  }
+  vk::ImageInfo info;
+  info.type = VK_IMAGE_TYPE_3D;
+  info.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+  info.extent = {quality.transportCells, quality.transportCells, quality.transportCells};
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+  r.viewSource = vk::Image(device, info);
+}
+
 void makeHeadlessTargets(vk::Device& device, const WlkViewInfo& info, ViewResources& r) {
   const VkFormat format = targetFormat(info.targetFormat);
   r.depth = makeTarget(device, info.width, info.height, VK_FORMAT_R32_SFLOAT);
@@ -147,9 +170,9 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
     for (const bool depth : {false, true}) {
       for (const uint32_t fields : fieldCounts) {
         EyeVariant v{air, fog, lights > 0, depth, false};
-        pipelines.prepare(eyeKey(v, fields, quality.forwardScattering));
+        pipelines.prepare(eyeKey(v, fields, quality));
         v.allLight = lights > 0 && sky && !fog && quality.multipleSky;
-        pipelines.prepare(eyeKey(v, fields, quality.forwardScattering));
+        pipelines.prepare(eyeKey(v, fields, quality));
       }
       CompositeVariant v{};
       v.air = air;
@@ -180,6 +203,11 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
   }
   for (const uint32_t fields : fieldCounts) {
     pipelines.prepare(lightKey(fields, quality.forwardScattering));
+    if (quality.transport) {
+      for (const vk::Pass pass : TRANSPORT_PASSES) {
+        pipelines.prepare(transportKey(pass, fields));
+      }
+    }
   }
 }
 
@@ -190,9 +218,10 @@ constexpr VkDeviceSize LAYER_BYTES = sizeof(float) * 4 * CURVE_POINTS * DEPTH_NO
 void fillLayer(const Particle& particle, uint32_t form, char* layer,
                std::array<float, DEPTH_NODES>& forwardFraction) {
   const PhaseCurve& curve = particle.curve;
-  const SourceForm kind = form == 0 ? SourceForm::Poisson : SourceForm::Integer;
+  const SourceForm kind = form == 1 ? SourceForm::Integer : SourceForm::Poisson;
   const SourceRows rows =
-      particle.analytic && kind == SourceForm::Poisson
+      form == 2 ? peakRows(curve)
+      : particle.analytic && kind == SourceForm::Poisson
           ? closedSourceRows(curve.y, particle.phase)
           : sourceRows(curve.y, {curve.value[0], curve.value[1], curve.value[2]}, kind);
   constexpr size_t DEPTHS = DEPTH_NODES;
@@ -227,11 +256,16 @@ vk::PipelineKey lightKey(uint32_t fields, bool forward) {
   return {vk::Pass::LightSlices, VK_FORMAT_UNDEFINED, {0, 0, 1, fields, forward ? 1u : 0u}};
 }
 
-vk::PipelineKey eyeKey(const EyeVariant& v, uint32_t fields, bool forward) {
-  return {
-      vk::Pass::EyeSlices,
-      VK_FORMAT_UNDEFINED,
-      {v.air, v.fog, v.light, fields, forward ? 1u : 0u, v.depth ? 1u : 0u, v.allLight ? 1u : 0u}};
+vk::PipelineKey eyeKey(const EyeVariant& v, uint32_t fields, const SliceQuality& quality) {
+  return {vk::Pass::EyeSlices,
+          VK_FORMAT_UNDEFINED,
+          {v.air, v.fog, v.light, fields, quality.forwardScattering, v.depth, v.allLight,
+           quality.transport && v.light, quality.multipleSky}};
+}
+
+vk::PipelineKey transportKey(vk::Pass pass, uint32_t fields) {
+  const bool reads = pass == vk::Pass::TransportDepth || pass == vk::Pass::TransportCells;
+  return {pass, VK_FORMAT_UNDEFINED, {0, 0, 0, reads ? fields : 0}};
 }
 
 vk::PipelineKey skyTableKey(uint32_t air, bool fog, uint32_t lights, bool allLight) {
@@ -274,7 +308,11 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
       std::max<VkDeviceSize>(device.properties().limits.minStorageBufferOffsetAlignment, 16);
   const VkDeviceSize both = std::max(alignment, counterStride);  // powers of two
   r.fogOffset = alignUp(sizeof(FrameUniforms), both);
-  r.slotStride = r.fogOffset + alignUp(FOG_CURVE_BYTES + volumeCount * r.volumeStride, both);
+  r.transportStride =
+      quality.transport ? alignUp(sizeof(interface_::TransportUniforms), alignment) : 0;
+  r.transportOffset = alignUp(r.fogOffset + FOG_CURVE_BYTES, both);
+  r.slotStride = r.transportOffset +
+                 alignUp(volumeCount * (r.transportStride + r.volumeStride), both);
   r.uniforms =
       vk::Buffer(device, r.slotStride * framesInFlight,
                  VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true);
@@ -282,7 +320,7 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
       vk::Buffer(device, counterStride * framesInFlight,
                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
   const uint32_t batches = (quality.sliceCount + quality.batchSize - 1) / quality.batchSize;
-  r.queryCount = 3 + volumeCount * 2 * batches;
+  r.queryCount = 3 + volumeCount * (2 * batches + 2);
   const VkDeviceSize pixels = VkDeviceSize{info.width} * info.height;
   const VkDeviceSize stateBytes = volumeCount > 0 ? pixels * 16 : 16;
   r.frameState = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
@@ -301,6 +339,9 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
     light.extent = {quality.lightSize, quality.lightSize, quality.batchSize + 1};
     light.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     r.lightBuffer = vk::Image(device, light);
+    if (quality.transport) {
+      makeTransport(device, quality, volumeCount, r);
+    }
   }
   if (quality.multipleSky && (features.sky || features.fog)) {
     makeSkyTables(device, features, r);
@@ -311,8 +352,8 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   makeSlots(device, pipelines, r, framesInFlight, memory);
   view.plan.volumes.reserve(volumeCount);
   view.planVolumes.reserve(volumeCount);
-  view.record.passes.reserve(2 + 2 * size_t{volumeCount});
-  view.record.times.reserve(2 + 2 * size_t{volumeCount});
+  view.record.passes.reserve(2 + 3 * size_t{volumeCount});
+  view.record.times.reserve(2 + 3 * size_t{volumeCount});
   std::swap(view.resources, r);
   view.prepared = true;
 }
@@ -322,6 +363,14 @@ void destroyView(vk::Device& device, ViewState& view) {
 }
 
 void prepareVolume(vk::Device& device, VolumeState& volume, uint32_t form) {
+  if (form == 2 && !volume.transport) {
+    auto media = std::make_shared<const TransportMedia>(transportMedia(volume));
+    vk::Buffer table(device, media->response.size() * sizeof(float),
+                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true);
+    std::memcpy(table.data(), media->response.data(), media->response.size() * sizeof(float));
+    volume.pairTable = std::move(table);
+    volume.transport = std::move(media);
+  }
   ScatteringTable& table = volume.tables[form];
   if (table.image) {
     return;

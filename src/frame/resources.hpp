@@ -40,7 +40,12 @@ struct EyeVariant {
   uint32_t air;  // Plan::airKind
   bool fog, light, depth, allLight;
 };
-vk::PipelineKey eyeKey(const EyeVariant& variant, uint32_t fields, bool forward);
+vk::PipelineKey eyeKey(const EyeVariant& variant, uint32_t fields, const SliceQuality& quality);
+inline constexpr std::array TRANSPORT_PASSES{
+    vk::Pass::TransportDepth,    vk::Pass::TransportCells,  vk::Pass::TransportSweep,
+    vk::Pass::TransportGather,   vk::Pass::TransportRestrict, vk::Pass::TransportSource,
+    vk::Pass::TransportView};
+vk::PipelineKey transportKey(vk::Pass pass, uint32_t fields);
 vk::PipelineKey skyTableKey(uint32_t air, bool fog, uint32_t lights, bool allLight);
 struct CompositeVariant {
   uint32_t air;

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <memory>
 #include <memory_resource>
 #include <optional>
 #include <vector>
@@ -20,8 +21,9 @@
 namespace welkin {
 
 constexpr int DEPTH_NODES = 32;  // of a scattering table, see tables/multiscatter.hpp
-// Poisson counts of scatterings, and the paper's whole numbers.
-constexpr uint32_t SCATTERING_FORMS = 2;
+// Poisson counts of scatterings, the paper's whole numbers, and the first order with its peak
+// blurred.
+constexpr uint32_t SCATTERING_FORMS = 3;
 
 struct MediumState {
   Medium medium;
@@ -56,12 +58,17 @@ struct PendingUpload {
   VkBufferImageCopy region{};
 };
 
+struct TransportMedia;
+
 struct VolumeState {
   std::array<uint32_t, 3> size{};
   uint32_t fieldCount = 0;
   std::array<FieldState, WLK_MAX_FIELDS> fields;
   glm::dmat4x3 worldFromBox{1.0};
   std::array<ScatteringTable, SCATTERING_FORMS> tables;  // those that views ask for
+  std::shared_ptr<const TransportMedia> transport;       // likewise
+  vk::Buffer pairTable;                                  // of `transport`, as its passes read it
+  uint64_t version = 1;                                  // of the fields' contents
 
   bool anyDensity() const {
     for (uint32_t i = 0; i < fieldCount; ++i) {
@@ -122,23 +129,35 @@ struct SkyLightState {
 // What a view's sky table was made for: it changes with these numbers only.
 using SkyTableKey = std::array<float, 52>;
 
+// The light inside a volume that a view shows, and what it was computed from.
+struct TransportGrid {
+  vk::Buffer kept;
+  std::vector<char> key;  // uniforms, volume and its version; empty: nothing yet
+};
+
 struct ViewSlot {
   BoundSet composite;
   BoundSet skyTable;
   std::pmr::vector<BoundSet> volumes;
+  std::pmr::vector<BoundSet> transport;  // of the volumes by PlannedVolume::index
   VkQueryPool queries = VK_NULL_HANDLE;
   uint64_t frameIndex = 0;                 // last frame recorded into this slot, 0 if none
   bool harvested = true;                   // its counters and timestamps were read
   std::pmr::vector<uint32_t> passOfQuery;  // query i + 1 ends a command of this pass
   std::pmr::vector<PassTime> passes;       // of that frame, in the plan's order
   explicit ViewSlot(std::pmr::memory_resource* memory)
-      : volumes(memory), passOfQuery(memory), passes(memory) {}
+      : volumes(memory), transport(memory), passOfQuery(memory), passes(memory) {}
 };
 
 // Images and buffers of a view; remade by wlkPrepare when their sizes change.
 struct ViewResources {
-  explicit ViewResources(std::pmr::memory_resource* memory) : slots(memory) {}
+  explicit ViewResources(std::pmr::memory_resource* memory) : grids(memory), slots(memory) {}
   vk::Image lightBuffer;
+  vk::Image viewSource;       // what cells of the volume in turn scatter towards the eye
+  vk::Buffer transportWork;
+  VkDeviceSize transportStride = 0;
+  VkDeviceSize transportOffset = 0;
+  std::pmr::vector<TransportGrid> grids;  // by PlannedVolume::index
   vk::Buffer frameState;
   vk::Buffer volumeState;
   vk::Buffer uniforms;  // per slot: frame, fog curve, volumes

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "frame/transport.hpp"
 #include "model/model.hpp"
 
 namespace welkin {
@@ -187,7 +188,8 @@ void fillVolume(const VolumeState& volume, const PlannedVolume& planned, const g
   // Longest stretch of a ray between two samples: at 1.5 slabs, stretches of optical depth 2 drew
   // contour lines on a cumulus lit from the side; at 0.75 none are left.
   const double maxStep = layout.slabThickness * 0.75;
-  out.texelOrigin = glm::vec4(glm::vec3(origin), 0.0f);
+  const double peak = volume.transport ? volume.transport->peak : 0.0;
+  out.texelOrigin = glm::vec4(glm::vec3(origin), static_cast<float>(1 - peak));
   out.texelA = glm::vec4(glm::vec3(inverse * layout.texelU), static_cast<float>(layout.lightPath));
   out.texelB =
       glm::vec4(glm::vec3(inverse * layout.texelV), static_cast<float>(quality.sliceCount));

@@ -14,11 +14,13 @@ namespace welkin {
 // The GLSL structs of shaders/interface as C++: rows of vec4 and mat4.
 namespace interface_ {
 using vec4 = glm::vec4;
+using ivec4 = glm::ivec4;
 using mat4 = glm::mat4;
 using uint = uint32_t;
 #include "interface/frame.glsl"
 #include "interface/sky_table.glsl"
 #include "interface/slices.glsl"
+#include "interface/transport.glsl"
 }  // namespace interface_
 static_assert(interface_::MAX_LIGHTS == MAX_LIGHTS);
 

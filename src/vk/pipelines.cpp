@@ -9,6 +9,13 @@
 #include "eye_slices_comp_spv.h"
 #include "light_slices_comp_spv.h"
 #include "sky_table_comp_spv.h"
+#include "transport_cells_comp_spv.h"
+#include "transport_depth_comp_spv.h"
+#include "transport_gather_comp_spv.h"
+#include "transport_restrict_comp_spv.h"
+#include "transport_source_comp_spv.h"
+#include "transport_sweep_comp_spv.h"
+#include "transport_view_comp_spv.h"
 
 namespace welkin::vk {
 namespace {
@@ -117,6 +124,18 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
                          binding(BIND_SKY_MOMENTS, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
                          binding(BIND_SKY_TABLE_STORAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE),
                          binding(BIND_SKY_PEAK_STORAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE)};
+    std::array<VkDescriptorSetLayoutBinding, TRANSPORT_BINDING_COUNT> transport{};
+    for (uint32_t i = 0; i < TRANSPORT_BINDING_COUNT; ++i) {
+      transport[i] = binding(i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+    }
+    transport[BIND_TRANSPORT_UNIFORMS].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    transport[BIND_TRANSPORT_WORK].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    transport[BIND_TRANSPORT_KEPT].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    transport[BIND_TRANSPORT_PAIRS].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    transport[BIND_TRANSPORT_TARGET].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    transport[BIND_TRANSPORT_VIEW].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    transportSet_ = makeSetLayout(device_, transport);
+    transportLayout_ = makeLayout(device_, transportSet_);
     skySet_ = makeSetLayout(device_, sky);
     skyLayout_ = makeLayout(device_, skySet_);
     compositeSet_ = makeSetLayout(device_, composite);
@@ -144,6 +163,8 @@ void Pipelines::destroy() {
   vk.DestroySampler(device, nearest_, nullptr);
   vk.DestroyPipelineLayout(device, skyLayout_, nullptr);
   vk.DestroyDescriptorSetLayout(device, skySet_, nullptr);
+  vk.DestroyPipelineLayout(device, transportLayout_, nullptr);
+  vk.DestroyDescriptorSetLayout(device, transportSet_, nullptr);
   vk.DestroyPipelineLayout(device, volumeLayout_, nullptr);
   vk.DestroyPipelineLayout(device, compositeLayout_, nullptr);
   vk.DestroyDescriptorSetLayout(device, volumeSet_, nullptr);
@@ -167,19 +188,35 @@ void Pipelines::prepare(const PipelineKey& key) {
   entries_.push_back({key, key.pass == Pass::CompositeBlend ? makeBlend(key) : makeCompute(key)});
 }
 
-VkPipeline Pipelines::makeCompute(const PipelineKey& key) {
-  std::span<const uint32_t> code = composite_comp_spv;
-  VkPipelineLayout layout = compositeLayout_;
-  if (key.pass == Pass::LightSlices) {
-    code = light_slices_comp_spv;
-    layout = volumeLayout_;
-  } else if (key.pass == Pass::EyeSlices) {
-    code = eye_slices_comp_spv;
-    layout = volumeLayout_;
-  } else if (key.pass == Pass::SkyTable) {
-    code = sky_table_comp_spv;
-    layout = skyLayout_;
+Pipelines::Compute Pipelines::computeOf(Pass pass) const {
+  switch (pass) {
+    case Pass::LightSlices:
+      return {light_slices_comp_spv, volumeLayout_};
+    case Pass::EyeSlices:
+      return {eye_slices_comp_spv, volumeLayout_};
+    case Pass::SkyTable:
+      return {sky_table_comp_spv, skyLayout_};
+    case Pass::TransportDepth:
+      return {transport_depth_comp_spv, transportLayout_};
+    case Pass::TransportCells:
+      return {transport_cells_comp_spv, transportLayout_};
+    case Pass::TransportSweep:
+      return {transport_sweep_comp_spv, transportLayout_};
+    case Pass::TransportGather:
+      return {transport_gather_comp_spv, transportLayout_};
+    case Pass::TransportRestrict:
+      return {transport_restrict_comp_spv, transportLayout_};
+    case Pass::TransportSource:
+      return {transport_source_comp_spv, transportLayout_};
+    case Pass::TransportView:
+      return {transport_view_comp_spv, transportLayout_};
+    default:
+      return {composite_comp_spv, compositeLayout_};
   }
+}
+
+VkPipeline Pipelines::makeCompute(const PipelineKey& key) {
+  const auto [code, layout] = computeOf(key.pass);
   const Module module(device_, code);
   const Specialization specialization(key);
   VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};

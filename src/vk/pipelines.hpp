@@ -5,13 +5,27 @@
 
 #include <array>
 #include <memory_resource>
+#include <span>
 #include <vector>
 
 #include "vk/device.hpp"
 
 namespace welkin::vk {
 
-enum class Pass : uint32_t { LightSlices, EyeSlices, SkyTable, Composite, CompositeBlend };
+enum class Pass : uint32_t {
+  LightSlices,
+  EyeSlices,
+  SkyTable,
+  Composite,
+  CompositeBlend,
+  TransportDepth,
+  TransportCells,
+  TransportSweep,
+  TransportGather,
+  TransportRestrict,
+  TransportSource,
+  TransportView
+};
 
 constexpr uint32_t MAX_CONSTANTS = 12;
 
@@ -37,7 +51,8 @@ enum VolumeBinding : uint32_t {
   BIND_FOG_CURVE = 12,
   BIND_SKY_TABLE = 13,
   BIND_SKY_PEAK = 14,
-  VOLUME_BINDING_COUNT = 15
+  BIND_VIEW_SOURCE = 15,
+  VOLUME_BINDING_COUNT = 16
 };
 enum CompositeBinding : uint32_t {
   BIND_COMPOSITE_FRAME = 0,
@@ -61,6 +76,17 @@ enum SkyTableBinding : uint32_t {
   SKY_BINDING_COUNT = 4
 };
 
+enum TransportBinding : uint32_t {
+  BIND_TRANSPORT_UNIFORMS = 0,
+  BIND_TRANSPORT_WORK = 1,
+  BIND_TRANSPORT_KEPT = 2,
+  BIND_TRANSPORT_FIELD0 = 3,
+  BIND_TRANSPORT_PAIRS = 7,
+  BIND_TRANSPORT_TARGET = 8,
+  BIND_TRANSPORT_VIEW = 9,
+  TRANSPORT_BINDING_COUNT = 10
+};
+
 class Pipelines {
  public:
   Pipelines(Device& device, std::pmr::memory_resource* host);
@@ -76,6 +102,8 @@ class Pipelines {
   VkDescriptorSetLayout volumeSetLayout() const { return volumeSet_; }
   VkDescriptorSetLayout compositeSetLayout() const { return compositeSet_; }
   VkDescriptorSetLayout skySetLayout() const { return skySet_; }
+  VkDescriptorSetLayout transportSetLayout() const { return transportSet_; }
+  VkPipelineLayout transportLayout() const { return transportLayout_; }
   VkPipelineLayout skyLayout() const { return skyLayout_; }
   VkPipelineLayout volumeLayout() const { return volumeLayout_; }
   VkPipelineLayout compositeLayout() const { return compositeLayout_; }
@@ -84,6 +112,11 @@ class Pipelines {
 
  private:
   void destroy();
+  struct Compute {
+    std::span<const uint32_t> code;
+    VkPipelineLayout layout;
+  };
+  Compute computeOf(Pass pass) const;
   VkPipeline makeCompute(const PipelineKey& key);
   VkPipeline makeBlend(const PipelineKey& key);
 
@@ -96,6 +129,8 @@ class Pipelines {
   VkDescriptorSetLayout volumeSet_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout compositeSet_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout skySet_ = VK_NULL_HANDLE;
+  VkDescriptorSetLayout transportSet_ = VK_NULL_HANDLE;
+  VkPipelineLayout transportLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout volumeLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout skyLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout compositeLayout_ = VK_NULL_HANDLE;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Light inside a volume on a grid of cells, as 16-byte rows: what its passes share.
+//
+// The grid has levels, each half as fine along every axis. Rays of a direction meet slices of cells
+// across its main axis; ray (i, j) stands at (i + k u, j + k v) in slice k, modulo the grid's size:
+// one that leaves through a side goes on as a ray that enters through the opposite one.
+const int TRANSPORT_LEVELS = 3;
+const int TRANSPORT_DIRECTIONS = 26;
+// Real spherical harmonics of degree < 4 around the direction in which light travels: Y(l, m) is
+// number l l + l + m, mean square 1.
+const int TRANSPORT_TERMS = 16;
+// Of degree < 3: of light scattered once.
+const int FIRST_TERMS = 9;
+// Nodes of the pair table over the scattering angle, for each (l, m >= 0) of degree < 3.
+const int PAIR_TABLE_NODES = 128;
+
+struct TransportDirection {
+  vec4 step_;   // u, v: cells per slice; path per slice (m); weight
+  ivec4 axes;   // main axis, u, v, 1 or -1 along the main axis
+};
+
+struct TransportUniforms {
+  ivec4 size[TRANSPORT_LEVELS];   // cells along the box's axes, and in all
+  // First cell of the level in lists that hold all levels; the same over the finest one's share.
+  ivec4 place[TRANSPORT_LEVELS];
+  TransportDirection directions[TRANSPORT_LEVELS * TRANSPORT_DIRECTIONS];
+  TransportDirection light;       // the light's own, at twice the resolution
+  vec4 harmonics[TRANSPORT_DIRECTIONS * 4];  // of the directions
+  // Of the first light's phase function between two harmonics: row l * 3 + l', m in xyz.
+  vec4 first[12];
+  vec4 lightFrame[3];             // world to the frame of the harmonics, rows
+  vec4 worldFromBox[3];           // columns, without the translation
+  vec4 extinctionScale;           // per field: extinction (1/m) at value 1
+  vec4 fieldMoments[4];           // per field: albedo * moments of what is not in the peak
+  vec4 peak;                      // x: extinction without the peak over extinction; y: taps per axis
+};
+
+struct TransportPush {
+  uint level;
+  uint flags;  // TRANSPORT_*
+  uint unused0;
+  uint unused1;
+};
+
+const uint TRANSPORT_FIRST_SWEEP = 1u;  // of light scattered once
+const uint TRANSPORT_COARSER = 2u;      // adds the correction of the level below

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Extinction, light and moments of the cells, from 8 parts of each; coarser levels from the finer.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "transport.glsl"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 3) const uint FIELD_COUNT = 1;
+layout(set = 0, binding = 3) uniform sampler3D field0;
+layout(set = 0, binding = 4) uniform sampler3D field1;
+layout(set = 0, binding = 5) uniform sampler3D field2;
+layout(set = 0, binding = 6) uniform sampler3D field3;
+#include "fields.glsl"
+
+float depthAt(int index) {
+  return work[radianceAt(0, 0, index)];
+}
+
+void storeMoments(int level, int cell, vec4 moments) {
+  for (int degree = 0; degree < 4; ++degree) {
+    kept[momentAt(level, degree, cell)] = moments[degree];
+  }
+}
+
+vec4 momentsOf(int level, int cell) {
+  return vec4(kept[momentAt(level, 0, cell)], kept[momentAt(level, 1, cell)],
+              kept[momentAt(level, 2, cell)], kept[momentAt(level, 3, cell)]);
+}
+
+void finest(int cell) {
+  ivec3 size = 2 * volume.size[0].xyz;
+  ivec3 corner = 2 * cellOf(volume.size[0].xyz, cell);
+  int taps = int(volume.peak.y);
+  vec4 beta = vec4(0.0f);
+  float lit = 0.0f;
+  float light = 0.0f;
+  vec4 scattered = vec4(volume.fieldMoments[0].x, volume.fieldMoments[1].x,
+                        volume.fieldMoments[2].x, volume.fieldMoments[3].x);
+  for (int part = 0; part < 8; ++part) {
+    ivec3 fine = corner + ivec3(part & 1, (part >> 1) & 1, part >> 2);
+    vec4 here = vec4(0.0f);
+    for (int tap = 0; tap < taps * taps * taps; ++tap) {
+      vec3 offset = (vec3(tap % taps, (tap / taps) % taps, tap / (taps * taps)) + 0.5f) /
+                    float(taps);
+      here += fieldExtinction((vec3(fine) + offset) / vec3(size));
+    }
+    here /= float(taps * taps * taps);
+    Rays rays = raysAround(volume.light, size, fine);
+    float depth = rays.weight.x * depthAt(rays.index.x) + rays.weight.y * depthAt(rays.index.y) +
+                  rays.weight.z * depthAt(rays.index.z) + rays.weight.w * depthAt(rays.index.w);
+    float passed = exp(-min(depth * volume.peak.x, 80.0f));
+    beta += here;
+    lit += dot(here, scattered) * passed;
+    light += passed;
+  }
+  beta *= 0.125f;
+  float sum = beta.x + beta.y + beta.z + beta.w;
+  // An empty cell next to a cloud takes part in interpolation: it has the light of its place.
+  float first = sum > 1.0e-12f ? 0.125f * lit / sum : 0.125f * light * scattered.x;
+  vec4 moments = volume.fieldMoments[0];
+  if (sum > 1.0e-12f) {
+    moments = (volume.fieldMoments[0] * beta.x + volume.fieldMoments[1] * beta.y +
+               volume.fieldMoments[2] * beta.z + volume.fieldMoments[3] * beta.w) / sum;
+  }
+  kept[extinctionAt(0, cell)] = sum * volume.peak.x;
+  kept[lightAt(0, cell)] = first;
+  storeMoments(0, cell, moments);
+}
+
+void coarser(int level, int cell) {
+  ivec3 size = volume.size[level - 1].xyz;
+  ivec3 corner = 2 * cellOf(volume.size[level].xyz, cell);
+  ivec3 stride = strideOf(size);
+  float beta = 0.0f;
+  vec4 moments = vec4(0.0f);
+  vec4 plain = vec4(0.0f);
+  for (int part = 0; part < 8; ++part) {
+    ivec3 fine = corner + ivec3(part & 1, (part >> 1) & 1, part >> 2);
+    int index = fine.x * stride.x + fine.y * stride.y + fine.z * stride.z;
+    float here = kept[extinctionAt(level - 1, index)];
+    vec4 own = momentsOf(level - 1, index);
+    beta += here;
+    moments += here * own;
+    plain += own;
+  }
+  kept[extinctionAt(level, cell)] = 0.125f * beta;
+  storeMoments(level, cell, beta > 1.0e-12f ? moments / beta : 0.125f * plain);
+}
+
+void main() {
+  int cell = int(gl_GlobalInvocationID.x);
+  int level = int(push.level);
+  if (cell >= volume.size[level].w) {
+    return;
+  }
+  if (level == 0) {
+    finest(cell);
+  } else {
+    coarser(level, cell);
+  }
+}

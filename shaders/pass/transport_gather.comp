@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Harmonics of the radiance in each cell, and the source they scatter into. After the first sweep:
+// of the light scattered once, which drives the rest.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "transport.glsl"
+
+layout(local_size_x = 64) in;
+
+int degreeOf(int term) {
+  return term >= 9 ? 3 : (term >= 4 ? 2 : (term >= 1 ? 1 : 0));
+}
+
+void main() {
+  int level = int(push.level);
+  int cell = int(gl_GlobalInvocationID.x);
+  ivec3 size = volume.size[level].xyz;
+  if (cell >= volume.size[level].w) {
+    return;
+  }
+  bool first = (push.flags & TRANSPORT_FIRST_SWEEP) != 0u;
+  ivec3 place = cellOf(size, cell);
+  float sum[TRANSPORT_TERMS];
+  for (int term = 0; term < TRANSPORT_TERMS; ++term) {
+    sum[term] = 0.0f;
+  }
+  int direction = 0;
+  do {
+    TransportDirection d = directionAt(level, direction);
+    Rays rays = raysAround(d, size, place);
+    float radiance = dot(rays.weight, vec4(work[radianceAt(level, direction, rays.index.x)],
+                                           work[radianceAt(level, direction, rays.index.y)],
+                                           work[radianceAt(level, direction, rays.index.z)],
+                                           work[radianceAt(level, direction, rays.index.w)]));
+    radiance *= d.step_.w;
+    for (int row = 0; row < 4; ++row) {
+      vec4 y = volume.harmonics[direction * 4 + row];
+      sum[row * 4 + 0] += y.x * radiance;
+      sum[row * 4 + 1] += y.y * radiance;
+      sum[row * 4 + 2] += y.z * radiance;
+      sum[row * 4 + 3] += y.w * radiance;
+    }
+    direction += 1;
+  } while (direction < TRANSPORT_DIRECTIONS);
+
+  vec4 moments = vec4(kept[momentAt(level, 0, cell)], kept[momentAt(level, 1, cell)],
+                      kept[momentAt(level, 2, cell)], kept[momentAt(level, 3, cell)]);
+  if (first) {
+    for (int term = 0; term < FIRST_TERMS; ++term) {
+      kept[firstAt(term, cell)] = sum[term];
+    }
+    for (int l = 0; l < 4; ++l) {
+      for (int m = -l; m <= l; ++m) {
+        float drive = 0.0f;
+        for (int k = 0; k < 3; ++k) {
+          if (abs(m) <= k) {
+            drive += volume.first[l * 3 + k][abs(m)] * sum[k * k + k + m];
+          }
+        }
+        int term = l * l + l + m;
+        work[driveAt(level, term, cell)] = moments[l] * drive;
+        kept[sourceAt(level, term, cell)] = 0.0f;
+      }
+    }
+    return;
+  }
+  for (int term = 0; term < TRANSPORT_TERMS; ++term) {
+    float now = moments[degreeOf(term)] * sum[term];
+    int at = sourceAt(level, term, cell);
+    work[changeAt(level, term, cell)] = now - kept[at];
+    kept[at] = now;
+  }
+}

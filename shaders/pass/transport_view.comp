@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// What each cell scatters towards the eye of light scattered before, 1/sr per unit irradiance:
+// light scattered once by the product of two phase functions, the rest by its harmonics.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "transport.glsl"
+#include "../interface/slices.glsl"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 7, std430) readonly buffer Pairs { vec4 pairs[]; };
+layout(set = 0, binding = 8, rgba32f) uniform writeonly image3D viewSource;
+layout(set = 0, binding = 9, std140) uniform View { VolumeUniforms view; };
+
+vec3 pair(int function, float x) {
+  int node = min(int(x), PAIR_TABLE_NODES - 2);
+  int at = function * PAIR_TABLE_NODES + node;
+  return mix(pairs[at].xyz, pairs[at + 1].xyz, x - float(node));
+}
+
+void main() {
+  int cell = int(gl_GlobalInvocationID.x);
+  ivec3 size = volume.size[0].xyz;
+  if (cell >= volume.size[0].w) {
+    return;
+  }
+  ivec3 place = cellOf(size, cell);
+  vec3 box = (vec3(place) + 0.5f) / vec3(size);
+  vec3 toEye = view.boxFromEye[3].xyz - box;
+  vec3 v = volume.worldFromBox[0].xyz * toEye.x + volume.worldFromBox[1].xyz * toEye.y +
+           volume.worldFromBox[2].xyz * toEye.z;
+  v *= inversesqrt(max(dot(v, v), 1.0e-30f));
+  vec3 d = vec3(dot(volume.lightFrame[0].xyz, v), dot(volume.lightFrame[1].xyz, v),
+                clamp(dot(volume.lightFrame[2].xyz, v), -1.0f, 1.0f));
+  float x = d.x;
+  float y = d.y;
+  float z = d.z;
+
+  vec4 a = vec4(kept[firstAt(0, cell)], kept[firstAt(1, cell)], kept[firstAt(2, cell)],
+                kept[firstAt(3, cell)]);
+  vec4 b = vec4(kept[firstAt(4, cell)], kept[firstAt(5, cell)], kept[firstAt(6, cell)],
+                kept[firstAt(7, cell)]);
+  float c = kept[firstAt(8, cell)];
+  float node = acos(z) * (float(PAIR_TABLE_NODES - 1) / 3.14159265f);
+  float s2 = max(x * x + y * y, 1.0e-20f);
+  float s = inversesqrt(s2);
+  vec2 one = vec2(x, y) * s;                                    // cos and sin of the azimuth
+  vec2 two = vec2(x * x - y * y, 2.0f * x * y) / s2;            // of twice the azimuth
+  vec3 first = a.x * pair(0, node) + a.z * pair(1, node) +
+               (a.w * one.x + a.y * one.y) * pair(2, node) + b.z * pair(3, node) +
+               (b.w * one.x + b.y * one.y) * pair(4, node) +
+               (c * two.x + b.x * two.y) * pair(5, node);
+  first *= kept[momentAt(0, 0, cell)];
+
+  float rest = kept[sourceAt(0, 0, cell)] + 1.7320508f * (y * kept[sourceAt(0, 1, cell)] +
+                                                            z * kept[sourceAt(0, 2, cell)] +
+                                                            x * kept[sourceAt(0, 3, cell)]);
+  rest += 3.8729833f * (x * y * kept[sourceAt(0, 4, cell)] + y * z * kept[sourceAt(0, 5, cell)] +
+                        x * z * kept[sourceAt(0, 7, cell)] +
+                        0.5f * (x * x - y * y) * kept[sourceAt(0, 8, cell)]);
+  rest += 1.1180340f * (3.0f * z * z - 1.0f) * kept[sourceAt(0, 6, cell)];
+  rest += 2.0916501f * (y * (3.0f * x * x - y * y) * kept[sourceAt(0, 9, cell)] +
+                        x * (x * x - 3.0f * y * y) * kept[sourceAt(0, 15, cell)]);
+  rest += 10.2469508f * (x * y * z * kept[sourceAt(0, 10, cell)] +
+                         0.5f * z * (x * x - y * y) * kept[sourceAt(0, 14, cell)]);
+  rest += 1.6201852f * (5.0f * z * z - 1.0f) *
+          (y * kept[sourceAt(0, 11, cell)] + x * kept[sourceAt(0, 13, cell)]);
+  rest += 1.3228757f * z * (5.0f * z * z - 3.0f) * kept[sourceAt(0, 12, cell)];
+
+  vec3 source = max(first + vec3(rest), vec3(0.0f)) * 0.0795774715f;
+  imageStore(viewSource, place, vec4(source, 0.0f));
+}

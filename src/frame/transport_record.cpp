@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "frame/transport_record.hpp"
+
+#include <cstring>
+
+#include "frame/resources.hpp"
+
+namespace welkin {
+namespace {
+
+using interface_::TransportPush;
+using interface_::TransportUniforms;
+
+// Rounds over the finest level, the one below it in each of those, and over the coarsest. Where
+// light is scattered some hundred times this leaves 0.5 % of the source (docs/models.md).
+constexpr uint32_t ROUNDS = 5;
+constexpr uint32_t MIDDLE_ROUNDS = 2;
+constexpr uint32_t COARSE_ROUNDS = 10;
+constexpr uint32_t GROUP = 64;
+
+class TransportRecorder {
+ public:
+  TransportRecorder(const vk::Device& device, const vk::Pipelines& pipelines,
+                    VkCommandBuffer commands, uint32_t cells, uint32_t fields)
+      : vk_(device.vk()),
+        pipelines_(pipelines),
+        commands_(commands),
+        edge_(cells),
+        fields_(fields),
+        sizes_(transportSizes(cells)) {}
+
+  void compute() {
+    dispatch(vk::Pass::TransportDepth, 0, 0, 4 * edge_ * edge_, 1);
+    for (uint32_t level = 0; level < interface_::TRANSPORT_LEVELS; ++level) {
+      dispatch(vk::Pass::TransportCells, level, 0, sizes_.cells[level], 1);
+    }
+    sweep(0, interface_::TRANSPORT_FIRST_SWEEP);
+    dispatch(vk::Pass::TransportSource, 0, 0, sizes_.cells[0], 1);
+    for (uint32_t round = 0; round < ROUNDS; ++round) {
+      cycle(0);
+    }
+    result.computed = true;
+  }
+
+  void show() { dispatch(vk::Pass::TransportView, 0, 0, sizes_.cells[0], 1); }
+
+  TransportCommands result;
+
+ private:
+  void sweep(uint32_t level, uint32_t flags) {
+    const uint32_t edge = edge_ >> level;
+    dispatch(vk::Pass::TransportSweep, level, flags, edge * edge, interface_::TRANSPORT_DIRECTIONS);
+    dispatch(vk::Pass::TransportGather, level, flags, sizes_.cells[level], 1);
+  }
+
+  // One round of scattering, then what the coarser levels know about all that follow.
+  void cycle(uint32_t level) {
+    sweep(level, 0);
+    const uint32_t below = level + 1;
+    uint32_t flags = 0;
+    if (below < interface_::TRANSPORT_LEVELS) {
+      dispatch(vk::Pass::TransportRestrict, below, 0, sizes_.cells[below],
+               interface_::TRANSPORT_TERMS);
+      dispatch(vk::Pass::TransportSource, below, 0, sizes_.cells[below], 1);
+      const bool last = below + 1 == interface_::TRANSPORT_LEVELS;
+      for (uint32_t round = 0; round < (last ? COARSE_ROUNDS : MIDDLE_ROUNDS); ++round) {
+        cycle(below);
+      }
+      flags = interface_::TRANSPORT_COARSER;
+    }
+    dispatch(vk::Pass::TransportSource, level, flags, sizes_.cells[level], 1);
+  }
+
+  void dispatch(vk::Pass pass, uint32_t level, uint32_t flags, uint32_t threads, uint32_t rows) {
+    vk_.CmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE,
+                        pipelines_.find(transportKey(pass, fields_)));
+    const TransportPush push{level, flags, 0, 0};
+    vk_.CmdPushConstants(commands_, pipelines_.transportLayout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                         sizeof push, &push);
+    const uint32_t groups = (threads + GROUP - 1) / GROUP;
+    vk_.CmdDispatch(commands_, groups, rows, 1);
+    result.dispatches += 1;
+    result.invocations += uint64_t{groups} * GROUP * rows;
+    VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    memory.srcStageMask = memory.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    memory.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+    memory.dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
+                           VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+                           VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+    VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    info.memoryBarrierCount = 1;
+    info.pMemoryBarriers = &memory;
+    vk_.CmdPipelineBarrier2(commands_, &info);
+    result.barriers += 1;
+  }
+
+  const vk::Dispatch& vk_;
+  const vk::Pipelines& pipelines_;
+  VkCommandBuffer commands_;
+  uint32_t edge_;
+  uint32_t fields_;
+  TransportSizes sizes_;
+};
+
+// Whether the grid holds what it would be computed from now; remembers it.
+bool remembered(TransportGrid& grid, const TransportUniforms& uniforms, uint64_t volume,
+                uint64_t version) {
+  const std::array<uint64_t, 2> ids{volume, version};
+  const size_t size = sizeof uniforms + sizeof ids;
+  std::array<char, sizeof uniforms + sizeof ids> now;
+  std::memcpy(now.data(), &uniforms, sizeof uniforms);
+  std::memcpy(now.data() + sizeof uniforms, ids.data(), sizeof ids);
+  const bool same = grid.key.size() == size && std::memcmp(grid.key.data(), now.data(), size) == 0;
+  grid.key.assign(now.begin(), now.end());  // reserved
+  return same;
+}
+
+}  // namespace
+
+TransportCommands recordTransport(const vk::Device& device, const vk::Pipelines& pipelines,
+                                  VkCommandBuffer commands, ViewState& view,
+                                  const PlannedVolume& planned, const RecordInput& in,
+                                  Bindings& bindings, VkDeviceSize viewUniforms, bool always) {
+  ViewResources& r = view.resources;
+  const RecordVolume& volume = in.volumes[planned.index];
+  const VolumeState& state = *volume.state;
+  const uint32_t cells = resolveQuality(view.quality).transportCells;
+  TransportGrid& grid = r.grids[planned.index];
+  BoundSet& set = r.slots[in.slot].transport[planned.index];
+  const VkDeviceSize offset =
+      in.slot * r.slotStride + r.transportOffset + planned.index * r.transportStride;
+  TransportUniforms uniforms;
+  fillTransport(state, view.plan.lights.light[0].toLight, cells, uniforms);
+  std::memcpy(static_cast<char*>(r.uniforms.data()) + offset, &uniforms, sizeof uniforms);
+
+  bindings.buffer(set, vk::BIND_TRANSPORT_UNIFORMS, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                  r.uniforms.handle(), offset, sizeof uniforms);
+  bindings.buffer(set, vk::BIND_TRANSPORT_WORK, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                  r.transportWork.handle(), 0, r.transportWork.size());
+  bindings.buffer(set, vk::BIND_TRANSPORT_KEPT, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                  grid.kept.handle(), 0, grid.kept.size());
+  bindings.buffer(set, vk::BIND_TRANSPORT_PAIRS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                  state.pairTable.handle(), 0, state.pairTable.size());
+  bindings.image(set, vk::BIND_TRANSPORT_TARGET, r.viewSource.view(), VK_NULL_HANDLE,
+                 VK_IMAGE_LAYOUT_GENERAL);
+  bindings.buffer(set, vk::BIND_TRANSPORT_VIEW, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                  r.uniforms.handle(), viewUniforms, sizeof(interface_::VolumeUniforms));
+  bool changing = always;
+  for (uint32_t i = 0; i < WLK_MAX_FIELDS; ++i) {
+    VkImageView image = in.dummy3d;
+    if (i < state.fieldCount && state.fields[i].external) {
+      image = volume.externalViews[i];
+      changing = true;  // the engine may have written it since
+    } else if (i < state.fieldCount && state.fields[i].image) {
+      image = state.fields[i].image.view();
+    }
+    bindings.image(set, vk::BIND_TRANSPORT_FIELD0 + i, image, pipelines.linear(),
+                   VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+  }
+  device.vk().CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+                                    pipelines.transportLayout(), 0, 1, &set.set, 0, nullptr);
+  TransportRecorder recorder(device, pipelines, commands, cells, state.fieldCount);
+  if (!remembered(grid, uniforms, planned.id, state.version) || changing) {
+    recorder.compute();
+  }
+  recorder.show();
+  return recorder.result;
+}
+
+}  // namespace welkin

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: MIT
+// Phase functions in 1/sr for the transport of light in thick volumes, by Legendre moments. With
+// this normalisation of Y_lm (sum over m of Y_lm(a) Y_lm(b) = (2 l + 1) P_l(a b)) the pair of two
+// phase functions is
+//   sum over L of chi'_L b_L Y_Lm(v),  b_L = integral of P'(w s) Y_lm(w) Y_Lm(w),
+// and products of harmonics of l <= 2 take b_L from chi'_(L-2) .. chi'_(L+2): [DLMF 14.10.3] for
+// mu P_L and, with 14.10.5, (1 - mu^2) P_L' = L (L + 1) / (2 L + 1) (P_(L-1) - P_(L+1)).
+#include "tables/transport_phase.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "tables/angular_moments.hpp"
+
+namespace welkin {
+namespace {
+
+constexpr double PI = std::numbers::pi;
+constexpr double INV_4PI = 0.25 * std::numbers::inv_pi;
+constexpr double PEAK_EDGE = PI / 9;   // 20 degrees
+constexpr double LEAST_REST = 1e-9;    // share of the light that still has a shape
+constexpr double DROPPED = 1e-7;       // 1/sr, the sum of all terms left out
+constexpr double FLOOR = 1e-20;        // 1/sr, as sourceRows
+constexpr double PAIR_DROPPED = 1e-5;  // of isotropic light
+// Halos end at 2304; what has not ended is smoothed by 0.12 degrees, a tenth of the nodes'
+// distance.
+constexpr size_t PAIR_TERMS = 2560;
+
+using Moments = std::vector<double>;
+
+double squared(double value) {
+  return value * value;
+}
+
+// min(P, P(20 degrees)) within 20 degrees, P beyond.
+std::vector<double> withoutPeak(const PhaseCurve& curve, size_t channel) {
+  const double edge = 2 * squared(std::sin(PEAK_EDGE / 2));
+  const double level = evalPhaseCurve(curve, channel, edge);
+  std::vector<double> rest = curve.value[channel];
+  for (size_t i = 0; i < rest.size() && curve.y[i] < edge; ++i) {
+    rest[i] = std::min(rest[i], level);
+  }
+  return rest;
+}
+
+std::vector<double> peakOf(const PhaseCurve& curve, size_t channel) {
+  std::vector<double> peak = withoutPeak(curve, channel);
+  std::transform(curve.value[channel].begin(), curve.value[channel].end(), peak.begin(),
+                 peak.begin(), std::minus<>());
+  return peak;
+}
+
+// Of the blurred light without what no peak has turned, e^(-x f) P.
+Moments turnedMoments(const Moments& chi, const Moments& peak, double x) {
+  Moments result = chi;
+  for (size_t l = 0; l < chi.size(); ++l) {
+    result[l] *= -std::exp(-x * (peak[0] - peak[l])) * std::expm1(-x * peak[l]);
+  }
+  return result;
+}
+
+// Coefficients of P_l in 1/sr. |P_l| <= 1: the terms dropped add up to less than DROPPED.
+std::vector<double> seriesOf(Moments moments) {
+  for (size_t l = 0; l < moments.size(); ++l) {
+    moments[l] *= INV_4PI * static_cast<double>(2 * l + 1);
+  }
+  double rest = 0;
+  while (!moments.empty() && (rest += std::abs(moments.back())) < DROPPED) {
+    moments.pop_back();
+  }
+  return moments;
+}
+
+// ln of once P + series, the series clamped (it is positive but for rounding) and scaled to the
+// integral 1 - once between the nodes, as sourceRows does.
+void writeRow(std::span<const double> y, std::span<const double> p, double once,
+              std::span<double> series, float* result) {
+  for (double& value : series) {
+    value = std::max(value, 0.0);
+  }
+  const double total = sphereIntegral(y, series);
+  const double scale = total > 0 ? (1 - once) / total : 0;
+  once = total > 0 ? once : 1;
+  for (size_t j = 0; j < p.size(); ++j) {
+    result[j] = static_cast<float>(std::log(std::max(once * p[j] + scale * series[j], FLOOR)));
+  }
+}
+
+void channelRows(const PhaseCurve& curve, size_t channel, float* result) {
+  const std::vector<double>& p = curve.value[channel];
+  const Moments chi = scatteringMoments(curve.y, p);
+  Moments peak(chi.size());
+  legendreMoments(curve.y, peakOf(curve, channel), peak);
+  std::vector<std::vector<double>> series;
+  std::vector<double> once;
+  for (size_t row = 0; row < kPhaseDepths; ++row) {
+    const double x = depthNode(static_cast<double>(row) / (kPhaseDepths - 1));
+    once.push_back(std::exp(-x * peak[0]));
+    series.push_back(seriesOf(turnedMoments(chi, peak, x)));
+  }
+  const size_t angles = curve.y.size();
+  std::vector<double> sums(series.size() * angles);
+  legendreSums(curve.y, series, sums);
+  for (size_t row = 0; row < kPhaseDepths; ++row) {
+    writeRow(curve.y, p, once[row], std::span(sums).subspan(row * angles, angles),
+             result + row * angles);
+  }
+}
+
+// Moments of mu P, and integrals of P (1 - mu^2) P_L' over the sphere.
+Moments timesCosine(const Moments& chi) {
+  Moments result(chi.size());
+  for (size_t l = 0; l < chi.size(); ++l) {
+    const auto order = static_cast<double>(l);
+    const double above = l + 1 < chi.size() ? chi[l + 1] : 0;
+    const double below = l > 0 ? chi[l - 1] : 0;
+    result[l] = ((order + 1) * above + order * below) / (2 * order + 1);
+  }
+  return result;
+}
+
+Moments timesSlope(const Moments& chi) {
+  Moments result(chi.size());
+  for (size_t l = 1; l < chi.size(); ++l) {
+    const auto order = static_cast<double>(l);
+    const double above = l + 1 < chi.size() ? chi[l + 1] : 0;
+    result[l] = order * (order + 1) / (2 * order + 1) * (chi[l - 1] - above);
+  }
+  return result;
+}
+
+// Y_lm = harmonicNorm P_l^m cos(m azimuth).
+double harmonicNorm(size_t l, size_t m) {
+  double ratio = static_cast<double>(2 * l + 1) * (m > 0 ? 2 : 1);
+  for (size_t k = l - m + 1; k <= l + m; ++k) {
+    ratio /= static_cast<double>(k);
+  }
+  return std::sqrt(ratio);
+}
+
+// Integrals of P P_l^m P_L^m over polar angles for all L, l <= 2. (1 - mu^2)^2 P_L'' is (1 - mu^2)
+// (2 mu P_L' - L (L + 1) P_L), Legendre's equation.
+Moments polarProducts(const Moments& chi, size_t l, size_t m) {
+  const Moments first = timesCosine(chi);
+  Moments result = l == 0 ? chi : m == 1 ? timesSlope(l == 1 ? chi : first) : first;
+  if (l < 2) {
+    return result;
+  }
+  const Moments second = timesCosine(first);
+  const Moments slope = timesSlope(first);
+  for (size_t k = 0; k < chi.size(); ++k) {
+    const auto order = static_cast<double>(k);
+    result[k] = m == 0   ? 1.5 * second[k] - 0.5 * chi[k]
+                : m == 1 ? 3 * result[k]
+                         : 3 * (2 * slope[k] - order * (order + 1) * (chi[k] - second[k]));
+  }
+  return result;
+}
+
+// b_L of all L; 0 for L < m.
+Moments productMoments(const Moments& chi, size_t l, size_t m) {
+  Moments result = polarProducts(chi, l, m);
+  const double mean = m > 0 ? 0.5 : 1;  // of cos^2(m azimuth)
+  for (size_t k = 0; k < result.size(); ++k) {
+    result[k] = k < m ? 0 : result[k] * mean * harmonicNorm(l, m) * harmonicNorm(k, m);
+  }
+  return result;
+}
+
+// Steps Y_Lm of azimuth 0 upwards from L = m, where they are stable: Y_L = a_L (mu Y_(L-1) -
+// Y_(L-2) / a_(L-1)), a_L^2 = (4 L^2 - 1) / (L^2 - m^2).
+std::vector<double> recurrenceOf(size_t m, size_t count) {
+  std::vector<double> a(count);
+  for (size_t l = m + 1; l < count; ++l) {
+    const double square = squared(static_cast<double>(l));
+    a[l] = std::sqrt((4 * square - 1) / (square - squared(static_cast<double>(m))));
+  }
+  return a;
+}
+
+void harmonics(size_t m, double theta, const std::vector<double>& a, std::vector<double>& values) {
+  const double mu = std::cos(theta);
+  const double sine = std::sin(theta);
+  std::fill(values.begin(), values.end(), 0.0);
+  values[m] = m == 0 ? 1 : m == 1 ? std::sqrt(3.0) * sine : std::sqrt(15.0) / 2 * sine * sine;
+  for (size_t l = m + 1; l < values.size(); ++l) {
+    const double before = l > m + 1 ? values[l - 2] / a[l - 1] : 0;
+    values[l] = a[l] * (mu * values[l - 1] - before);
+  }
+}
+
+std::vector<double> mixture(std::span<const TransportPhase* const> media,
+                            std::span<const double> weights, size_t channel) {
+  std::vector<double> result(media[0]->y.size());
+  for (size_t k = 0; k < media.size(); ++k) {
+    for (size_t i = 0; i < result.size(); ++i) {
+      result[i] += weights[k] * media[k]->rest[channel][i];
+    }
+  }
+  return result;
+}
+
+// chi'_L b_L, the coefficients of Y_Lm. |Y_Lm|^2 <= 2 L + 1, so that what is dropped adds up to
+// less than PAIR_DROPPED.
+Moments pairSeries(const Moments& chi, size_t l, size_t m) {
+  Moments series = productMoments(chi, l, m);
+  std::transform(chi.begin(), chi.end(), series.begin(), series.begin(), std::multiplies<>());
+  double rest = 0;
+  while (!series.empty() &&
+         (rest += std::abs(series.back()) * std::sqrt(static_cast<double>(2 * series.size() - 1))) <
+             PAIR_DROPPED) {
+    series.pop_back();
+  }
+  return series;
+}
+
+// Of one function for all channels.
+void writeResponse(size_t l, size_t m, const std::array<Moments, SOURCE_CHANNELS>& chi,
+                   float* response) {
+  std::array<Moments, SOURCE_CHANNELS> series;
+  size_t count = m + 1;
+  for (size_t c = 0; c < SOURCE_CHANNELS; ++c) {
+    series[c] = pairSeries(chi[c], l, m);
+    count = std::max(count, series[c].size());
+  }
+  for (Moments& one : series) {
+    one.resize(count);
+  }
+  const std::vector<double> a = recurrenceOf(m, count);
+  std::vector<double> values(count);
+  for (size_t node = 0; node < PAIR_NODES; ++node) {
+    harmonics(m, PI * static_cast<double>(node) / (PAIR_NODES - 1), a, values);
+    double sums[SOURCE_CHANNELS] = {};
+    for (size_t k = m; k < count; ++k) {
+      for (size_t c = 0; c < SOURCE_CHANNELS; ++c) {
+        sums[c] += series[c][k] * values[k];
+      }
+    }
+    for (size_t c = 0; c < SOURCE_CHANNELS; ++c) {
+      response[node * 4 + c] = static_cast<float>(sums[c]);
+    }
+  }
+}
+
+}  // namespace
+
+TransportPhase transportPhase(const PhaseCurve& curve) {
+  TransportPhase result;
+  result.y = curve.y;
+  for (size_t c = 0; c < SOURCE_CHANNELS; ++c) {
+    std::vector<double>& rest = result.rest[c];
+    rest = withoutPeak(curve, c);
+    const double share = sphereIntegral(curve.y, rest);
+    result.peak += sphereIntegral(curve.y, peakOf(curve, c)) / SOURCE_CHANNELS;
+    for (double& value : rest) {
+      value = share > LEAST_REST ? value / share : INV_4PI;
+    }
+    Moments chi(TRANSPORT_MOMENTS);
+    legendreMoments(curve.y, rest, chi);
+    for (size_t l = 0; l < chi.size(); ++l) {
+      result.moments[l] += chi[l] / SOURCE_CHANNELS;
+    }
+  }
+  return result;
+}
+
+SourceRows peakRows(const PhaseCurve& curve) {
+  SourceRows rows;
+  rows.angles = curve.y.size();
+  const size_t size = kPhaseDepths * rows.angles;
+  rows.logSource.resize(SOURCE_CHANNELS * size);
+  for (size_t c = 0; c < SOURCE_CHANNELS; ++c) {
+    float* const here = &rows.logSource[c * size];
+    if (c > 0 && curve.value[c] == curve.value[c - 1]) {
+      std::copy_n(here - size, size, here);
+    } else {
+      channelRows(curve, c, here);
+    }
+  }
+  return rows;
+}
+
+TransportPairs transportPairs(std::span<const TransportPhase* const> media,
+                              std::span<const double> weights) {
+  TransportPairs pairs;
+  pairs.response.resize(PAIR_FUNCTIONS * PAIR_NODES * 4);
+  const std::vector<double>& y = media[0]->y;
+  std::array<std::vector<double>, SOURCE_CHANNELS> p;
+  std::array<Moments, SOURCE_CHANNELS> chi;
+  Moments mean(TRANSPORT_MOMENTS + TRANSPORT_FIRST);
+  for (size_t c = 0; c < SOURCE_CHANNELS; ++c) {
+    p[c] = mixture(media, weights, c);
+    chi[c] = c > 0 && p[c] == p[c - 1] ? chi[c - 1] : scatteringMoments(y, p[c], PAIR_TERMS);
+    Moments exact(mean.size());  // not smoothed
+    legendreMoments(y, p[c], exact);
+    for (size_t l = 0; l < mean.size(); ++l) {
+      mean[l] += exact[l] / SOURCE_CHANNELS;
+    }
+  }
+  size_t function = 0;
+  for (size_t l = 0; l < TRANSPORT_FIRST; ++l) {
+    for (size_t m = 0; m <= l; ++m, ++function) {
+      writeResponse(l, m, chi, &pairs.response[function * PAIR_NODES * 4]);
+    }
+  }
+  for (size_t i = 0; i < TRANSPORT_FIRST; ++i) {
+    for (size_t m = 0; m <= i; ++m) {
+      const Moments product = productMoments(mean, i, m);
+      for (size_t l = m; l < TRANSPORT_MOMENTS; ++l) {
+        pairs.first[l][i][m] = static_cast<float>(product[l]);
+      }
+    }
+  }
+  return pairs;
+}
+
+}  // namespace welkin
