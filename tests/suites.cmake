@@ -7,6 +7,9 @@
 # DISCOVERY_MODE PRE_TEST. A FILTER takes suites or, with a leading '-', leaves tests out.
 function(welkin_discover_suites target)
   cmake_parse_arguments(PARSE_ARGV 1 SUITES "" "FILTER" "PROPERTIES")
+  if(NOT SUITES_FILTER)
+    set(SUITES_FILTER "*")
+  endif()
   set(script ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)
   file(GENERATE OUTPUT ${script} CONTENT
 "include([==[${CMAKE_CURRENT_FUNCTION_LIST_FILE}]==])
@@ -23,10 +26,10 @@ function(welkin_add_suites program filter)
   endif()
   execute_process(COMMAND ${program} --gtest_list_tests --gtest_filter=${filter}
                   OUTPUT_VARIABLE list RESULT_VARIABLE failed)
-  if(failed)
-    message(FATAL_ERROR "${program} does not list its tests: ${failed}")
-  endif()
   string(REGEX MATCHALL "(^|\n)[^ \n]+\\.[ \n]" suites "${list}")
+  if(failed OR NOT suites)
+    message(FATAL_ERROR "${program} does not list its tests: ${failed} ${list}")
+  endif()
   set(left_out "")
   if(filter MATCHES "^-")
     set(left_out ${filter})
