@@ -9,8 +9,6 @@ lint.py --tidy BUILD    and clang-tidy on src/ by BUILD/compile_commands.json; w
 lint.py --root TREE     another tree (the self-test's)
 """
 import argparse
-import concurrent.futures
-import json
 import os
 import pathlib
 import re
@@ -20,6 +18,7 @@ import sys
 sys.dont_write_bytecode = True  # nothing is written to the source tree
 import layers
 import literals
+import tidy
 
 WARN_LINES, MAX_LINES, MAX_COLUMNS = 400, 500, 100
 SKIPPED = {".git", "build", "out", "__pycache__"}
@@ -103,20 +102,8 @@ class Lint:
             self.report(pathlib.Path(name), 1, "format", "run tools/format")
 
     def run_tidy(self, build, folders):
-        database = json.loads((build / "compile_commands.json").read_text())
-        files = [e["file"] for e in database
-                 if os.path.relpath(e["file"], self.root).startswith(folders)]
-
-        def tidy(file):
-            return subprocess.run(["clang-tidy", "-p", str(build), "--quiet", file],
-                                  capture_output=True, text=True, check=False)
-        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            for result in pool.map(tidy, sorted(set(files))):
-                seen = [l for l in result.stdout.splitlines()
-                        if re.search(r": (error|warning): ", l)]
-                self.findings += [l.replace(str(self.root) + "/", "") for l in seen]
-                if result.returncode != 0 and not seen:
-                    self.findings.append("clang-tidy: " + result.stderr.strip()[-400:])
+        for line in tidy.findings(self.root, build, folders):
+            self.findings.append(line.replace(str(self.root) + "/", ""))
 
 
 def is_source(path):
