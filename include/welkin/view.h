@@ -135,6 +135,10 @@ typedef struct WlkQuality {
   uint32_t scattering;
   /** Bits WLK_QUALITY_NO_SKIP. Default 0. */
   uint64_t flags;
+  /** With WLK_SCATTERING_ALL_ORDERS: edge of a cube with as many cells as the grid of a volume has
+   *  at most. 0 or [8, 128]. Default 0. */
+  uint32_t volumeCells;
+  uint32_t reserved0;
 } WlkQuality;
 
 /** Sets a view's quality. Needs wlkPrepare. [C] */

@@ -8,7 +8,8 @@ namespace {
 
 WlkQuality parseQuality(const JsonNode& node) {
   node.onlyKeys(
-      {"level", "sliceCount", "batchSize", "lightBufferSize", "slicing", "scattering", "noSkip"});
+      {"level", "sliceCount", "batchSize", "lightBufferSize", "slicing", "scattering", "volumeCells",
+       "noSkip"});
   auto quality = make<WlkQuality>();
   // The words stand in the order of the API's values.
   if (node.has("level")) {
@@ -17,6 +18,7 @@ WlkQuality parseQuality(const JsonNode& node) {
   node.optional("sliceCount", quality.sliceCount);
   node.optional("batchSize", quality.batchSize);
   node.optional("lightBufferSize", quality.lightBufferSize);
+  node.optional("volumeCells", quality.volumeCells);
   if (node.has("slicing")) {
     quality.slicing = node.at("slicing").word({"default", "half-angle", "light-aligned"});
   }

@@ -4,7 +4,7 @@
 // The grid has levels, each half as fine along every axis. Rays of a direction meet slices of cells
 // across its main axis; ray (i, j) stands at (i + k u, j + k v) in slice k, modulo the grid's size:
 // one that leaves through a side goes on as a ray that enters through the opposite one.
-const int TRANSPORT_LEVELS = 3;
+const int TRANSPORT_LEVELS = 4;
 const int TRANSPORT_DIRECTIONS = 26;
 // Real spherical harmonics of degree < 4 around the direction in which light travels: Y(l, m) is
 // number l l + l + m, mean square 1.
@@ -26,10 +26,15 @@ struct TransportUniforms {
   TransportDirection directions[TRANSPORT_LEVELS * TRANSPORT_DIRECTIONS];
   TransportDirection light;       // the light's own, at twice the resolution
   vec4 harmonics[TRANSPORT_DIRECTIONS * 4];  // of the directions
-  // Of the first light's phase function between two harmonics: row l * 3 + l', m in xyz.
-  vec4 first[12];
+  // Of the phase function, once and twice, between two harmonics: row l * 3 + l', m in xyz.
+  vec4 products[24];
+  // Source of light scattered twice in each direction, from the terms of that scattered once; in
+  // the last row's w 1 / the phase function twice.
+  vec4 directed[TRANSPORT_DIRECTIONS * 3];
   vec4 lightFrame[3];             // world to the frame of the harmonics, rows
   vec4 worldFromBox[3];           // columns, without the translation
+  vec4 gridOrigin;                // of the grid in the unit box, which it may exceed
+  vec4 gridSize;
   vec4 extinctionScale;           // per field: extinction (1/m) at value 1
   vec4 fieldMoments[4];           // per field: albedo * moments of what is not in the peak
   vec4 peak;                      // x: extinction without the peak over extinction; y: taps per axis
@@ -42,5 +47,6 @@ struct TransportPush {
   uint unused1;
 };
 
-const uint TRANSPORT_FIRST_SWEEP = 1u;  // of light scattered once
-const uint TRANSPORT_COARSER = 2u;      // adds the correction of the level below
+const uint TRANSPORT_FIRST_SWEEP = 1u;   // of light scattered once
+const uint TRANSPORT_SECOND_SWEEP = 2u;  // of light scattered twice
+const uint TRANSPORT_COARSER = 4u;       // adds the correction of the level below

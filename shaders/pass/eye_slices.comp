@@ -165,7 +165,9 @@ void main() {
         vec2 light = textureLod(lightBuffer, at, 0.0f).xy;
         source = scatteredLight(extinction, single, light, angle, eyeDepth + 0.5f * beta * dt);
         if (TRANSPORT) {
-          vec3 more = textureLod(viewSource, boxOrigin + middle * boxStep, 0.0f).xyz;
+          vec3 cell = (boxOrigin + middle * boxStep) * volume.gridScale.xyz + volume.gridOffset.xyz;
+          cell = clamp(cell, vec3(0.5f), volume.gridEnd.xyz) * volume.gridEnd.w;
+          vec3 more = textureLod(viewSource, cell, 0.0f).xyz;
           source += more * (beta * volume.texelOrigin.w);
         }
         source *= air.light;

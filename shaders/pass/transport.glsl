@@ -26,6 +26,7 @@ int momentAt(int level, int degree, int cell) {
 int sourceAt(int level, int term, int cell) {
   return total() * (6 + term) + volume.place[level].x + cell;
 }
+// Terms of the light scattered once, then of that scattered twice, over the phase functions.
 int firstAt(int term, int cell) {
   return total() * (6 + TRANSPORT_TERMS) + volume.size[0].w * term + cell;
 }
@@ -48,6 +49,10 @@ int radianceAt(int level, int direction, int ray) {
 
 TransportDirection directionAt(int level, int direction) {
   return volume.directions[level * TRANSPORT_DIRECTIONS + direction];
+}
+
+vec3 boxOf(vec3 grid) {
+  return volume.gridOrigin.xyz + grid * volume.gridSize.xyz;
 }
 
 ivec3 cellOf(ivec3 size, int index) {

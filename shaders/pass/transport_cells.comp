@@ -42,7 +42,7 @@ void finest(int cell) {
     for (int tap = 0; tap < taps * taps * taps; ++tap) {
       vec3 offset = (vec3(tap % taps, (tap / taps) % taps, tap / (taps * taps)) + 0.5f) /
                     float(taps);
-      here += fieldExtinction((vec3(fine) + offset) / vec3(size));
+      here += fieldExtinction(boxOf((vec3(fine) + offset) / vec3(size)));
     }
     here /= float(taps * taps * taps);
     Rays rays = raysAround(volume.light, size, fine);

@@ -23,7 +23,7 @@ void main() {
   }
   ivec2 start = ivec2(ray % count.x, ray / count.x);
   int slices = size[d.axes.x];
-  vec3 along = vec3(0.0f);  // of a slice's path, in the unit box
+  vec3 along = vec3(0.0f);  // of a slice's path, over the grid
   along[d.axes.x] = float(d.axes.w) / float(slices);
   along[d.axes.y] = d.step_.x / float(count.x);
   along[d.axes.z] = d.step_.y / float(count.y);
@@ -38,7 +38,8 @@ void main() {
     at[d.axes.z] = (s.at.y + 0.5f) / float(count.y);
     depth = s.enters ? 0.0f : depth;
     for (int i = 0; i < taps; ++i) {
-      vec4 beta = fieldExtinction(at - along * (s.share * (float(i) + 0.5f) / float(taps)));
+      vec4 beta =
+          fieldExtinction(boxOf(at - along * (s.share * (float(i) + 0.5f) / float(taps))));
       depth += (beta.x + beta.y + beta.z + beta.w) * s.share * d.step_.z / float(taps);
     }
     work[radianceAt(0, 0, k * count.x * count.y + ray)] = depth;  // 8 of its 26 shares

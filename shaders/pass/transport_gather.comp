@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Harmonics of the radiance in each cell, and the source they scatter into. After the first sweep:
-// of the light scattered once, which drives the rest.
+// Harmonics of the radiance in each cell, and the source they scatter into. After the first two
+// sweeps: of the light scattered once and twice, each over its phase function in an endless medium,
+// which leaves what the place makes of it; the latter drives the rest.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "transport.glsl"
@@ -18,7 +19,8 @@ void main() {
   if (cell >= volume.size[level].w) {
     return;
   }
-  bool first = (push.flags & TRANSPORT_FIRST_SWEEP) != 0u;
+  bool second = (push.flags & TRANSPORT_SECOND_SWEEP) != 0u;
+  bool first = second || (push.flags & TRANSPORT_FIRST_SWEEP) != 0u;
   ivec3 place = cellOf(size, cell);
   float sum[TRANSPORT_TERMS];
   for (int term = 0; term < TRANSPORT_TERMS; ++term) {
@@ -32,7 +34,7 @@ void main() {
                                            work[radianceAt(level, direction, rays.index.y)],
                                            work[radianceAt(level, direction, rays.index.z)],
                                            work[radianceAt(level, direction, rays.index.w)]));
-    radiance *= d.step_.w;
+    radiance *= second ? d.step_.w * volume.directed[direction * 3 + 2].w : d.step_.w;
     for (int row = 0; row < 4; ++row) {
       vec4 y = volume.harmonics[direction * 4 + row];
       sum[row * 4 + 0] += y.x * radiance;
@@ -47,14 +49,14 @@ void main() {
                       kept[momentAt(level, 2, cell)], kept[momentAt(level, 3, cell)]);
   if (first) {
     for (int term = 0; term < FIRST_TERMS; ++term) {
-      kept[firstAt(term, cell)] = sum[term];
+      kept[firstAt(second ? FIRST_TERMS + term : term, cell)] = sum[term];
     }
     for (int l = 0; l < 4; ++l) {
       for (int m = -l; m <= l; ++m) {
         float drive = 0.0f;
         for (int k = 0; k < 3; ++k) {
           if (abs(m) <= k) {
-            drive += volume.first[l * 3 + k][abs(m)] * sum[k * k + k + m];
+            drive += volume.products[(second ? 12 : 0) + l * 3 + k][abs(m)] * sum[k * k + k + m];
           }
         }
         int term = l * l + l + m;

@@ -12,6 +12,22 @@ void main() {
   if (cell >= volume.size[level].w) {
     return;
   }
+  if ((push.flags & TRANSPORT_SECOND_SWEEP) != 0u) {
+    vec4 a = vec4(kept[firstAt(0, cell)], kept[firstAt(1, cell)], kept[firstAt(2, cell)],
+                  kept[firstAt(3, cell)]);
+    vec4 b = vec4(kept[firstAt(4, cell)], kept[firstAt(5, cell)], kept[firstAt(6, cell)],
+                  kept[firstAt(7, cell)]);
+    float c = kept[firstAt(8, cell)];
+    float scattered = kept[momentAt(level, 0, cell)];
+    int of = 0;
+    do {
+      float sum = dot(a, volume.directed[of * 3]) + dot(b, volume.directed[of * 3 + 1]) +
+                  c * volume.directed[of * 3 + 2].x;
+      work[directedAt(level, of, cell)] = max(scattered * sum, 0.0f);
+      of += 1;
+    } while (of < TRANSPORT_DIRECTIONS);
+    return;
+  }
   bool corrected = (push.flags & TRANSPORT_COARSER) != 0u;
   ivec3 coarse = corrected ? volume.size[level + 1].xyz : ivec3(1);
   ivec3 stride = strideOf(coarse);

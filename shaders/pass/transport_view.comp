@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What each cell scatters towards the eye of light scattered before, 1/sr per unit irradiance:
-// light scattered once by the product of two phase functions, the rest by its harmonics.
+// light scattered once and twice by products of phase functions, the rest by its harmonics.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "transport.glsl"
@@ -24,7 +24,7 @@ void main() {
     return;
   }
   ivec3 place = cellOf(size, cell);
-  vec3 box = (vec3(place) + 0.5f) / vec3(size);
+  vec3 box = boxOf((vec3(place) + 0.5f) / vec3(size));
   vec3 toEye = view.boxFromEye[3].xyz - box;
   vec3 v = volume.worldFromBox[0].xyz * toEye.x + volume.worldFromBox[1].xyz * toEye.y +
            volume.worldFromBox[2].xyz * toEye.z;
@@ -35,20 +35,24 @@ void main() {
   float y = d.y;
   float z = d.z;
 
-  vec4 a = vec4(kept[firstAt(0, cell)], kept[firstAt(1, cell)], kept[firstAt(2, cell)],
-                kept[firstAt(3, cell)]);
-  vec4 b = vec4(kept[firstAt(4, cell)], kept[firstAt(5, cell)], kept[firstAt(6, cell)],
-                kept[firstAt(7, cell)]);
-  float c = kept[firstAt(8, cell)];
   float node = acos(z) * (float(PAIR_TABLE_NODES - 1) / 3.14159265f);
   float s2 = max(x * x + y * y, 1.0e-20f);
-  float s = inversesqrt(s2);
-  vec2 one = vec2(x, y) * s;                                    // cos and sin of the azimuth
+  vec2 one = vec2(x, y) * inversesqrt(s2);                      // cos and sin of the azimuth
   vec2 two = vec2(x * x - y * y, 2.0f * x * y) / s2;            // of twice the azimuth
-  vec3 first = a.x * pair(0, node) + a.z * pair(1, node) +
-               (a.w * one.x + a.y * one.y) * pair(2, node) + b.z * pair(3, node) +
-               (b.w * one.x + b.y * one.y) * pair(4, node) +
-               (c * two.x + b.x * two.y) * pair(5, node);
+  vec3 first = vec3(0.0f);
+  for (int order = 0; order < 2; ++order) {
+    int term = order * FIRST_TERMS;
+    int f = order * 6;
+    first += kept[firstAt(term, cell)] * pair(f, node) +
+             kept[firstAt(term + 2, cell)] * pair(f + 1, node) +
+             (kept[firstAt(term + 3, cell)] * one.x + kept[firstAt(term + 1, cell)] * one.y) *
+                 pair(f + 2, node) +
+             kept[firstAt(term + 6, cell)] * pair(f + 3, node) +
+             (kept[firstAt(term + 7, cell)] * one.x + kept[firstAt(term + 5, cell)] * one.y) *
+                 pair(f + 4, node) +
+             (kept[firstAt(term + 8, cell)] * two.x + kept[firstAt(term + 4, cell)] * two.y) *
+                 pair(f + 5, node);
+  }
   first *= kept[momentAt(0, 0, cell)];
 
   float rest = kept[sourceAt(0, 0, cell)] + 1.7320508f * (y * kept[sourceAt(0, 1, cell)] +

@@ -200,7 +200,7 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
     case WLK_STRUCT_CAMERA:
       return write(camera(), structSize, structure);
     case WLK_STRUCT_QUALITY:
-      return write(quality(), structSize, structure);
+      return write(quality(), structSize, structure, QUALITY_FIRST_SIZE);
     case WLK_STRUCT_FRAME_INFO:
       return write(blank<WlkFrameInfo>(sType), structSize, structure);
     case WLK_STRUCT_HEADLESS_TARGETS:

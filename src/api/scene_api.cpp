@@ -158,6 +158,15 @@ WlkResult wlkUploadVolume(WlkContext context, WlkVolume volume, const WlkVolumeU
     }
     const bool whole = u.extent[0] == state.size[0] && u.extent[1] == state.size[1] &&
                        u.extent[2] == state.size[2];
+    if (whole) {
+      field.filled = {};
+    }
+    for (size_t i = 0; i < 3; ++i) {
+      if (sums.filled.end[i] > 0) {
+        field.filled.first[i] = std::min(field.filled.first[i], u.offset[i] + sums.filled.first[i]);
+        field.filled.end[i] = std::max(field.filled.end[i], u.offset[i] + sums.filled.end[i]);
+      }
+    }
     field.largest = whole ? sums.largest : std::max(field.largest, sums.largest);
     const double all = double(state.size[0]) * state.size[1] * state.size[2];
     const double part = double(u.extent[0]) * u.extent[1] * u.extent[2] / all;

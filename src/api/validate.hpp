@@ -27,6 +27,7 @@ void checkPointer(const void* pointer, const char* argument);
 constexpr uint32_t RAY_BATCH_FIRST_SIZE = offsetof(WlkRayBatch, maxOrder);
 constexpr uint32_t VIEW_FIRST_SIZE = offsetof(WlkViewInfo, color);
 constexpr uint32_t LIGHT_FIRST_SIZE = offsetof(WlkLight, limbDarkening);
+constexpr uint32_t QUALITY_FIRST_SIZE = offsetof(WlkQuality, volumeCells);
 constexpr uint32_t FOG_FIRST_SIZE = offsetof(WlkFog, medium);
 
 // Pointer, sType and structSize of a structure; `size` is this library's sizeof, `firstSize` that

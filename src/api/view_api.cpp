@@ -120,7 +120,7 @@ void setCamera(ViewState& view, const WlkCamera& camera) {
 }
 
 WlkQuality checkedQuality(const WlkQuality* quality) {
-  const WlkQuality q = copyStruct(quality, WLK_STRUCT_QUALITY);
+  const WlkQuality q = copyStruct(quality, WLK_STRUCT_QUALITY, QUALITY_FIRST_SIZE);
   checkNoChain(quality);
   checkRange(q.sType, "level", q.level, WLK_QUALITY_LOW, WLK_QUALITY_ULTRA);
   if (q.sliceCount != 0) {
@@ -135,6 +135,9 @@ WlkQuality checkedQuality(const WlkQuality* quality) {
   }
   checkRange(q.sType, "slicing", q.slicing, 0, WLK_SLICING_LIGHT_ALIGNED);
   checkRange(q.sType, "scattering", q.scattering, 0, WLK_SCATTERING_ALL_ORDERS);
+  if (q.volumeCells != 0) {
+    checkRange(q.sType, "volumeCells", q.volumeCells, 8, 128);
+  }
   if ((q.flags & ~uint64_t{WLK_QUALITY_NO_SKIP}) != 0) {
     fail(WLK_ERROR_INVALID_ARGUMENT, q.sType, "flags", "WlkQuality::flags has unknown bits");
   }

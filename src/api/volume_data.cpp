@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "api/volume_data.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -40,6 +41,13 @@ uint64_t checkedSum(uint64_t a, uint64_t b, uint64_t c) {
          "WlkVolumeUpload: the pitches overflow");
   }
   return sum;
+}
+
+void include(VoxelRange& range, const std::array<uint32_t, 3>& voxel) {
+  for (size_t i = 0; i < voxel.size(); ++i) {
+    range.first[i] = std::min(range.first[i], voxel[i]);
+    range.end[i] = std::max(range.end[i], voxel[i] + 1);
+  }
 }
 
 }  // namespace
@@ -124,7 +132,10 @@ VoxelSums convertVoxels(const WlkVolumeUpload& u, bool toFloat, void* out) {
       const auto* from = static_cast<const unsigned char*>(u.data) + z * slicePitch + y * rowPitch;
       for (uint32_t x = 0; x < u.extent[0]; ++x, from += voxel) {
         const float value = readVoxel(from, u.format);
-        sums.largest = value > sums.largest ? value : sums.largest;
+        if (value > 0.0f) {
+          sums.largest = std::max(sums.largest, value);
+          include(sums.filled, {x, y, z});
+        }
         const double wide{value};
         sums.sum += wide;
         sums.squares += wide * wide;

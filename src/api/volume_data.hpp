@@ -19,6 +19,7 @@ struct VoxelSums {
   float largest = 0;
   double sum = 0;
   double squares = 0;
+  VoxelRange filled;  // within the upload
 };
 VoxelSums convertVoxels(const WlkVolumeUpload& upload, bool toFloat, void* out);
 

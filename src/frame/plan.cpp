@@ -259,10 +259,10 @@ SliceQuality resolveQuality(const WlkQuality& quality) {
   // counts cost what the paper's whole numbers do, with less error: every level takes them.
   constexpr uint32_t ALIGNED = WLK_SLICING_LIGHT_ALIGNED;
   constexpr uint32_t FORWARD = WLK_SCATTERING_FORWARD;
-  constexpr std::array<Level, 4> LEVELS{{{32, 32, 96, ALIGNED, FORWARD, 12},
-                                         {64, 64, 160, ALIGNED, FORWARD, 16},
-                                         {128, 64, 256, ALIGNED, FORWARD, 24},
-                                         {256, 64, 448, ALIGNED, FORWARD, 32}}};
+  constexpr std::array<Level, 4> LEVELS{{{32, 32, 96, ALIGNED, FORWARD, 16},
+                                         {64, 64, 160, ALIGNED, FORWARD, 24},
+                                         {128, 64, 256, ALIGNED, FORWARD, 32},
+                                         {256, 64, 448, ALIGNED, FORWARD, 64}}};
   const Level& level = LEVELS[quality.level];
   const auto either = [](uint32_t chosen, uint32_t usual) { return chosen != 0 ? chosen : usual; };
   const uint32_t scattering = either(quality.scattering, level.scattering);
@@ -272,7 +272,8 @@ SliceQuality resolveQuality(const WlkQuality& quality) {
   result.lightSize = either(quality.lightBufferSize, level.lightSize);
   result.halfAngle = either(quality.slicing, level.slicing) == WLK_SLICING_HALF_ANGLE;
   result.transport = scattering == WLK_SCATTERING_ALL_ORDERS;
-  result.transportCells = level.transportCells;
+  // Whole cells on the coarsest level.
+  result.transportCells = (either(quality.volumeCells, level.transportCells) + 7) / 8 * 8;
   result.forwardScattering =
       scattering == WLK_SCATTERING_FORWARD || scattering == WLK_SCATTERING_FORWARD_INTEGER;
   result.wholeOrders = scattering == WLK_SCATTERING_FORWARD_INTEGER;

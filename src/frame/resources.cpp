@@ -130,7 +130,8 @@ void makeSkyTables(vk::Device& device, const SceneFeatures& features, ViewResour
 
 void makeTransport(vk::Device& device, const SliceQuality& quality, uint32_t volumes,
                    ViewResources& r) {
-  const TransportSizes sizes = transportSizes(quality.transportCells);
+  const TransportSizes sizes = transportSizes(
+      {quality.transportCells, quality.transportCells, quality.transportCells});
   r.transportWork = vk::Buffer(device, sizes.workBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
   r.grids.resize(volumes);
   for (TransportGrid& grid : r.grids) {
@@ -140,7 +141,8 @@ void makeTransport(vk::Device& device, const SliceQuality& quality, uint32_t vol
   vk::ImageInfo info;
   info.type = VK_IMAGE_TYPE_3D;
   info.format = VK_FORMAT_R32G32B32A32_SFLOAT;
-  info.extent = {quality.transportCells, quality.transportCells, quality.transportCells};
+  const uint32_t edge = transportImageEdge(quality.transportCells);
+  info.extent = {edge, edge, edge};
   info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
   r.viewSource = vk::Image(device, info);
 }

@@ -30,6 +30,12 @@ struct MediumState {
   uint32_t users = 0;
 };
 
+// Voxels [first, end) along each axis; empty if none.
+struct VoxelRange {
+  std::array<uint32_t, 3> first{~0U, ~0U, ~0U};
+  std::array<uint32_t, 3> end{};
+};
+
 // A field's image: Welkin's own, made by the first upload, or the engine's.
 struct FieldState {
   uint64_t mediumId = 0;
@@ -39,6 +45,7 @@ struct FieldState {
   // Means of the values and their squares; of an upload by parts as if the rest kept its mean.
   double mean = 0;
   double meanSquare = 0;
+  VoxelRange filled;  // holds all values above 0 in `image`
   vk::Image image;
   std::optional<WlkVulkanImage> external;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tables/transport_phase.hpp"
 
@@ -84,8 +85,29 @@ TransportDirection directionThrough(const glm::dmat3& cellsFromWorld, const glm:
   return out;
 }
 
-glm::dmat3 cellsFromWorld(const glm::dmat3& boxFromWorld, double cells) {
-  return cells * boxFromWorld;
+glm::dmat3 cellsFromWorld(const glm::dmat3& boxFromWorld, const TransportShape& shape,
+                          double perCell) {
+  glm::dmat3 scale(1.0);
+  for (int i = 0; i < 3; ++i) {
+    scale[i][i] = perCell * shape.cells[static_cast<size_t>(i)] / shape.size[i];
+  }
+  return scale * boxFromWorld;
+}
+
+// Of a flat volume: none lies in its plane, where light goes far and one direction would stand for
+// much.
+glm::dvec3 tilted(const glm::dvec3& v, int axis) {
+  constexpr double TURN = 0.4;
+  constexpr double TILT = 0.25;
+  const int u = (axis + 1) % 3;
+  const int w = (axis + 2) % 3;
+  glm::dvec3 r = v;
+  r[u] = v[u] * std::cos(TURN) - v[w] * std::sin(TURN);
+  r[w] = v[u] * std::sin(TURN) + v[w] * std::cos(TURN);
+  const double side = r[w] * std::cos(TILT) - r[axis] * std::sin(TILT);
+  r[axis] = r[w] * std::sin(TILT) + r[axis] * std::cos(TILT);
+  r[w] = side;
+  return r;
 }
 
 double meanAlbedo(const FieldState& field) {
@@ -109,20 +131,113 @@ std::vector<double> fieldWeights(const VolumeState& volume) {
   return weights;
 }
 
+// Mean over the colours of a function of the pair table.
+double pairValue(const TransportMedia& media, size_t function, double angle) {
+  constexpr size_t LAST = interface_::PAIR_TABLE_NODES - 1;
+  const double at = angle / std::numbers::pi * static_cast<double>(LAST);
+  const size_t node = std::min(static_cast<size_t>(at), LAST - 1);
+  const double part = at - static_cast<double>(node);
+  const float* row = &media.response[(function * (LAST + 1) + node) * 4];
+  double sum = 0;
+  for (size_t c = 0; c < RGB; ++c) {
+    sum += (1 - part) * static_cast<double>(row[c]) + part * static_cast<double>(row[4 + c]);
+  }
+  return sum / RGB;
+}
+
+// Rows of TransportUniforms::directed for direction w.
+void fillDirected(const TransportMedia& media, const glm::dvec3& w, const glm::dvec3& x,
+                  const glm::dvec3& y, const glm::dvec3& travel, glm::vec4* rows) {
+  const double angle = std::acos(std::clamp(glm::dot(w, travel), -1.0, 1.0));
+  const double azimuth = std::atan2(glm::dot(w, y), glm::dot(w, x));
+  std::array<double, 6> f{};
+  for (size_t i = 0; i < f.size(); ++i) {
+    f[i] = pairValue(media, i, angle);
+  }
+  const double cos1 = std::cos(azimuth);
+  const double sin1 = std::sin(azimuth);
+  const double cos2 = std::cos(2 * azimuth);
+  const double sin2 = std::sin(2 * azimuth);
+  rows[0] = glm::vec4(glm::dvec4(f[0], f[2] * sin1, f[1], f[2] * cos1));
+  rows[1] = glm::vec4(glm::dvec4(f[5] * sin2, f[4] * sin1, f[3], f[4] * cos1));
+  rows[2] = glm::vec4(glm::dvec4(f[5] * cos2, 0, 0, 1 / std::max(f[0], 1e-6)));
+}
+
 }  // namespace
 
-TransportSizes transportSizes(uint32_t cells) {
+uint32_t transportImageEdge(uint32_t edge) {
+  return edge + edge / 2;
+}
+
+TransportShape transportShape(const VolumeState& volume, uint32_t edge) {
+  constexpr double FLAT = 0.4;  // of the longest edge
+  glm::dvec3 low(1);
+  glm::dvec3 high(0);
+  for (uint32_t f = 0; f < volume.fieldCount; ++f) {
+    const FieldState& field = volume.fields[f];
+    for (int i = 0; i < 3; ++i) {
+      const auto axis = static_cast<size_t>(i);
+      const double voxels = volume.size[axis];
+      if (field.external) {
+        low[i] = 0;
+        high[i] = 1;
+      } else if (field.filled.end[axis] > 0) {
+        // Filtering spreads a voxel's value by half a voxel on either side.
+        low[i] = std::min(low[i], (field.filled.first[axis] - 0.5) / voxels);
+        high[i] = std::max(high[i], (field.filled.end[axis] + 0.5) / voxels);
+      }
+    }
+  }
+  TransportShape shape;
+  const glm::dmat3 box(volume.worldFromBox);
+  glm::dvec3 extent(0);
+  for (int i = 0; i < 3; ++i) {
+    shape.origin[i] = high[i] > low[i] ? std::max(low[i], 0.0) : 0.0;
+    shape.size[i] = (high[i] > low[i] ? std::min(high[i], 1.0) : 1.0) - shape.origin[i];
+    extent[i] = glm::length(box[i]) * shape.size[i];
+  }
+  const double longest = std::max({extent.x, extent.y, extent.z});
+  for (int i = 0; i < 3; ++i) {
+    if (extent[i] < FLAT * longest && (shape.thinAxis < 0 || extent[i] < extent[shape.thinAxis])) {
+      shape.thinAxis = i;
+    }
+  }
+  shape.cells = {edge, edge, edge};
+  if (shape.thinAxis >= 0) {
+    return shape;
+  }
+  // The finest cubes whose count fits.
+  double cube = longest / edge;
+  for (uint32_t along = edge; along <= transportImageEdge(edge); along += 8) {
+    std::array<uint32_t, 3> cells{};
+    for (int i = 0; i < 3; ++i) {
+      const double count = std::ceil(extent[i] / longest * along / 8 - 1e-9);
+      cells[static_cast<size_t>(i)] = 8 * static_cast<uint32_t>(std::max(count, 1.0));
+    }
+    if (uint64_t{cells[0]} * cells[1] * cells[2] <= uint64_t{edge} * edge * edge) {
+      shape.cells = cells;
+      cube = longest / along;
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    const double grown = cube * shape.cells[static_cast<size_t>(i)] / extent[i] * shape.size[i];
+    shape.origin[i] -= 0.5 * (grown - shape.size[i]);
+    shape.size[i] = grown;
+  }
+  return shape;
+}
+
+TransportSizes transportSizes(const std::array<uint32_t, 3>& cells) {
   TransportSizes sizes;
   VkDeviceSize total = 0;
   for (uint32_t level = 0; level < LEVELS; ++level) {
-    const uint32_t edge = cells >> level;
-    sizes.cells[level] = edge * edge * edge;
+    sizes.cells[level] = (cells[0] >> level) * (cells[1] >> level) * (cells[2] >> level);
     total += sizes.cells[level];
   }
   const VkDeviceSize finest = sizes.cells[0];
   sizes.workBytes = sizeof(float) * (2 * TERMS * total + 2 * DIRECTIONS * finest);
   sizes.keptBytes =
-      sizeof(float) * ((6 + TERMS) * total + interface_::FIRST_TERMS * finest);
+      sizeof(float) * ((6 + TERMS) * total + 2 * interface_::FIRST_TERMS * finest);
   return sizes;
 }
 
@@ -150,20 +265,22 @@ TransportMedia transportMedia(const VolumeState& volume) {
   const TransportPairs pairs = transportPairs(list, weights);
   for (size_t l = 0; l < TRANSPORT_MOMENTS; ++l) {
     for (size_t k = 0; k < TRANSPORT_FIRST; ++k) {
-      const auto& row = pairs.first[l][k];
-      media.first[l * TRANSPORT_FIRST + k] = {row[0], row[1], row[2], 0};
+      const auto& once = pairs.first[l][k];
+      const auto& twice = pairs.second[l][k];
+      media.products[l * TRANSPORT_FIRST + k] = {once[0], once[1], once[2], 0};
+      media.products[12 + l * TRANSPORT_FIRST + k] = {twice[0], twice[1], twice[2], 0};
     }
   }
   media.response = pairs.response;
   return media;
 }
 
-void fillTransport(const VolumeState& volume, const glm::dvec3& toLight, uint32_t cells,
-                   TransportUniforms& out) {
+void fillTransport(const VolumeState& volume, const glm::dvec3& toLight,
+                   const TransportShape& shape, TransportUniforms& out) {
   out = {};
   const glm::dmat3 box(volume.worldFromBox);
   const glm::dmat3 boxFromWorld = glm::inverse(box);
-  const TransportSizes sizes = transportSizes(cells);
+  const TransportSizes sizes = transportSizes(shape.cells);
   // Directions turn with the box.
   const glm::dvec3 a = glm::normalize(box[0]);
   const glm::dvec3 b = glm::normalize(box[1] - a * glm::dot(a, glm::dvec3(box[1])));
@@ -181,34 +298,41 @@ void fillTransport(const VolumeState& volume, const glm::dvec3& toLight, uint32_
   out.lightFrame[1] = glm::vec4(glm::vec3(y), 0);
   out.lightFrame[2] = glm::vec4(glm::vec3(travel), 0);
 
-  const Quadrature q = quadrature();
+  Quadrature q = quadrature();
+  if (shape.thinAxis >= 0) {
+    for (glm::dvec3& direction : q.direction) {
+      direction = tilted(direction, shape.thinAxis);
+    }
+  }
   int place = 0;
   for (int level = 0; level < LEVELS; ++level) {
-    const int edge = static_cast<int>(cells >> level);
     const int count = static_cast<int>(sizes.cells[static_cast<size_t>(level)]);
-    out.size[level] = {edge, edge, edge, count};
+    for (int i = 0; i < 3; ++i) {
+      out.size[level][i] = static_cast<int>(shape.cells[static_cast<size_t>(i)] >> level);
+    }
+    out.size[level].w = count;
     out.place[level] = {place, 0, 0, 0};
     place += count;
     for (size_t d = 0; d < DIRECTIONS; ++d) {
       out.directions[static_cast<size_t>(level) * DIRECTIONS + d] = directionThrough(
-          cellsFromWorld(boxFromWorld, edge), turn * q.direction[d], q.weight[d]);
+          cellsFromWorld(boxFromWorld, shape, 1.0 / (1 << level)), turn * q.direction[d], q.weight[d]);
     }
   }
   for (size_t d = 0; d < DIRECTIONS; ++d) {
     const glm::dvec3 w = turn * q.direction[d];
     const auto terms =
         harmonics({glm::dot(w, x), glm::dot(w, y), std::clamp(glm::dot(w, travel), -1.0, 1.0)});
+    fillDirected(*volume.transport, w, x, y, travel, &out.directed[d * 3]);
     for (size_t term = 0; term < TERMS; ++term) {
       out.harmonics[d * 4 + term / 4][static_cast<int>(term % 4)] = static_cast<float>(terms[term]);
     }
   }
-  out.light = directionThrough(cellsFromWorld(boxFromWorld, 2.0 * cells), travel, 1);
+  out.light = directionThrough(cellsFromWorld(boxFromWorld, shape, 2.0), travel, 1);
   const TransportMedia& media = *volume.transport;
-  std::copy(media.first.begin(), media.first.end(), out.first);
+  std::copy(media.products.begin(), media.products.end(), out.products);
   for (int i = 0; i < 3; ++i) {
     out.worldFromBox[i] = glm::vec4(glm::vec3(box[i]), 0);
   }
-  uint32_t voxels = 1;
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
     const FieldState& field = volume.fields[i];
     const bool present = field.external.has_value() || field.image;
@@ -217,10 +341,15 @@ void fillTransport(const VolumeState& volume, const glm::dvec3& toLight, uint32_
                 : 0.0f;
     out.fieldMoments[i] = media.fieldMoments[i];
   }
-  for (const uint32_t n : volume.size) {
-    voxels = std::max(voxels, n);
+  // Samples per half cell and axis: one for each voxel.
+  double voxels = 1;
+  for (int i = 0; i < 3; ++i) {
+    const auto axis = static_cast<size_t>(i);
+    voxels = std::max(voxels, volume.size[axis] * shape.size[i] / (2.0 * shape.cells[axis]));
   }
-  const uint32_t taps = std::clamp((voxels + 2 * cells - 1) / (2 * cells), 1U, 4U);
+  const double taps = std::clamp(std::ceil(voxels - 0.01), 1.0, 4.0);
+  out.gridOrigin = glm::vec4(glm::vec3(shape.origin), 0);
+  out.gridSize = glm::vec4(glm::vec3(shape.size), 0);
   out.peak = {static_cast<float>(1 - media.peak), static_cast<float>(taps), 0, 0};
 }
 

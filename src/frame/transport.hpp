@@ -9,24 +9,36 @@
 
 namespace welkin {
 
-// Levels of a grid with `cells` cells along every axis of the box, a multiple of 4.
+// Where a volume's grid lies: around all density, in cells that are cubes where the volume is not
+// flat, multiples of 8 along each axis.
+struct TransportShape {
+  std::array<uint32_t, 3> cells{};
+  glm::dvec3 origin{0};  // in the unit box
+  glm::dvec3 size{1};
+  int thinAxis = -1;  // of a flat one
+};
+// At most edge^3 cells, edge a multiple of 8, and transportImageEdge(edge) along an axis.
+TransportShape transportShape(const VolumeState& volume, uint32_t edge);
+uint32_t transportImageEdge(uint32_t edge);
+
+// Cells per level, and bytes of the lists.
 struct TransportSizes {
-  std::array<uint32_t, interface_::TRANSPORT_LEVELS> cells{};  // in all, per level
+  std::array<uint32_t, interface_::TRANSPORT_LEVELS> cells{};
   VkDeviceSize workBytes = 0;  // while light is computed; one volume at a time
   VkDeviceSize keptBytes = 0;  // of each volume
 };
-TransportSizes transportSizes(uint32_t cells);
+TransportSizes transportSizes(const std::array<uint32_t, 3>& cells);
 
 // Numbers of a volume's media: what transport takes for the peak, and the rest's moments.
 struct TransportMedia {
   double peak = 0;  // albedo * energy in the peak, mean of the fields
   std::array<glm::vec4, WLK_MAX_FIELDS> fieldMoments{};
-  std::array<glm::vec4, 12> first{};
+  std::array<glm::vec4, 24> products{};
   std::vector<float> response;  // RGBA, see PAIR_TABLE_NODES
 };
 TransportMedia transportMedia(const VolumeState& volume);
 
-void fillTransport(const VolumeState& volume, const glm::dvec3& toLight, uint32_t cells,
-                   interface_::TransportUniforms& out);
+void fillTransport(const VolumeState& volume, const glm::dvec3& toLight,
+                   const TransportShape& shape, interface_::TransportUniforms& out);
 
 }  // namespace welkin

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "frame/transport_record.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "frame/resources.hpp"
@@ -21,20 +22,22 @@ constexpr uint32_t GROUP = 64;
 class TransportRecorder {
  public:
   TransportRecorder(const vk::Device& device, const vk::Pipelines& pipelines,
-                    VkCommandBuffer commands, uint32_t cells, uint32_t fields)
+                    VkCommandBuffer commands, const std::array<uint32_t, 3>& cells, uint32_t fields)
       : vk_(device.vk()),
         pipelines_(pipelines),
         commands_(commands),
-        edge_(cells),
+        cells_(cells),
         fields_(fields),
         sizes_(transportSizes(cells)) {}
 
   void compute() {
-    dispatch(vk::Pass::TransportDepth, 0, 0, 4 * edge_ * edge_, 1);
+    dispatch(vk::Pass::TransportDepth, 0, 0, 4 * rays(0), 1);
     for (uint32_t level = 0; level < interface_::TRANSPORT_LEVELS; ++level) {
       dispatch(vk::Pass::TransportCells, level, 0, sizes_.cells[level], 1);
     }
     sweep(0, interface_::TRANSPORT_FIRST_SWEEP);
+    dispatch(vk::Pass::TransportSource, 0, interface_::TRANSPORT_SECOND_SWEEP, sizes_.cells[0], 1);
+    sweep(0, interface_::TRANSPORT_SECOND_SWEEP);
     dispatch(vk::Pass::TransportSource, 0, 0, sizes_.cells[0], 1);
     for (uint32_t round = 0; round < ROUNDS; ++round) {
       cycle(0);
@@ -47,9 +50,16 @@ class TransportRecorder {
   TransportCommands result;
 
  private:
+  // At most, of a direction.
+  uint32_t rays(uint32_t level) const {
+    const uint32_t x = cells_[0] >> level;
+    const uint32_t y = cells_[1] >> level;
+    const uint32_t z = cells_[2] >> level;
+    return std::max({x * y, y * z, z * x});
+  }
+
   void sweep(uint32_t level, uint32_t flags) {
-    const uint32_t edge = edge_ >> level;
-    dispatch(vk::Pass::TransportSweep, level, flags, edge * edge, interface_::TRANSPORT_DIRECTIONS);
+    dispatch(vk::Pass::TransportSweep, level, flags, rays(level), interface_::TRANSPORT_DIRECTIONS);
     dispatch(vk::Pass::TransportGather, level, flags, sizes_.cells[level], 1);
   }
 
@@ -97,7 +107,7 @@ class TransportRecorder {
   const vk::Dispatch& vk_;
   const vk::Pipelines& pipelines_;
   VkCommandBuffer commands_;
-  uint32_t edge_;
+  std::array<uint32_t, 3> cells_;
   uint32_t fields_;
   TransportSizes sizes_;
 };
@@ -124,13 +134,14 @@ TransportCommands recordTransport(const vk::Device& device, const vk::Pipelines&
   ViewResources& r = view.resources;
   const RecordVolume& volume = in.volumes[planned.index];
   const VolumeState& state = *volume.state;
-  const uint32_t cells = resolveQuality(view.quality).transportCells;
+  const TransportShape shape =
+      transportShape(state, resolveQuality(view.quality).transportCells);
   TransportGrid& grid = r.grids[planned.index];
   BoundSet& set = r.slots[in.slot].transport[planned.index];
   const VkDeviceSize offset =
       in.slot * r.slotStride + r.transportOffset + planned.index * r.transportStride;
   TransportUniforms uniforms;
-  fillTransport(state, view.plan.lights.light[0].toLight, cells, uniforms);
+  fillTransport(state, view.plan.lights.light[0].toLight, shape, uniforms);
   std::memcpy(static_cast<char*>(r.uniforms.data()) + offset, &uniforms, sizeof uniforms);
 
   bindings.buffer(set, vk::BIND_TRANSPORT_UNIFORMS, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
@@ -159,7 +170,7 @@ TransportCommands recordTransport(const vk::Device& device, const vk::Pipelines&
   }
   device.vk().CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
                                     pipelines.transportLayout(), 0, 1, &set.set, 0, nullptr);
-  TransportRecorder recorder(device, pipelines, commands, cells, state.fieldCount);
+  TransportRecorder recorder(device, pipelines, commands, shape.cells, state.fieldCount);
   if (!remembered(grid, uniforms, planned.id, state.version) || changing) {
     recorder.compute();
   }

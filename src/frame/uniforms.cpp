@@ -194,6 +194,16 @@ void fillVolume(const VolumeState& volume, const PlannedVolume& planned, const g
   out.texelB =
       glm::vec4(glm::vec3(inverse * layout.texelV), static_cast<float>(quality.sliceCount));
   out.texelC = glm::vec4(glm::vec3(inverse * layout.texelC), static_cast<float>(maxStep));
+  if (quality.transport) {
+    const TransportShape shape = transportShape(volume, quality.transportCells);
+    for (int i = 0; i < 3; ++i) {
+      const double cells = shape.cells[static_cast<size_t>(i)];
+      out.gridScale[i] = static_cast<float>(cells / shape.size[i]);
+      out.gridOffset[i] = static_cast<float>(-shape.origin[i] * cells / shape.size[i]);
+      out.gridEnd[i] = static_cast<float>(cells - 0.5);
+    }
+    out.gridEnd.w = 1.0f / static_cast<float>(transportImageEdge(quality.transportCells));
+  }
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
     const FieldState& field = volume.fields[i];
     const std::array<double, RGB> albedo = field.medium.scaledAlbedo();

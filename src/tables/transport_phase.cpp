@@ -52,11 +52,22 @@ std::vector<double> peakOf(const PhaseCurve& curve, size_t channel) {
   return peak;
 }
 
+// Of k = 1, 2, ... turns by the peak, each with weight x^k / (k + 1)!.
+double severalTurns(double x, double peak, double f) {
+  const double turns = x * peak;
+  if (std::abs(turns) < 1e-2) {
+    return std::exp(-x * f) * peak * turns * (1.0 / 2 + turns * (1.0 / 6 + turns / 24));
+  }
+  return -std::exp(-x * (f - peak)) * std::expm1(-turns) / x - std::exp(-x * f) * peak;
+}
+
 // Of the blurred light without what no peak has turned, e^(-x f) P.
 Moments turnedMoments(const Moments& chi, const Moments& peak, double x) {
   Moments result = chi;
   for (size_t l = 0; l < chi.size(); ++l) {
-    result[l] *= -std::exp(-x * (peak[0] - peak[l])) * std::expm1(-x * peak[l]);
+    const double f = peak[0];
+    result[l] = (chi[l] - peak[l]) * -std::exp(-x * (f - peak[l])) * std::expm1(-x * peak[l]) +
+                severalTurns(x, peak[l], f);
   }
   return result;
 }
@@ -73,16 +84,15 @@ std::vector<double> seriesOf(Moments moments) {
   return moments;
 }
 
-// ln of once P + series, the series clamped (it is positive but for rounding) and scaled to the
-// integral 1 - once between the nodes, as sourceRows does.
-void writeRow(std::span<const double> y, std::span<const double> p, double once,
+// ln of once P + series, the series clamped (it is positive but for rounding) and scaled to its
+// integral between the nodes, as sourceRows does.
+void writeRow(std::span<const double> y, std::span<const double> p, double once, double integral,
               std::span<double> series, float* result) {
   for (double& value : series) {
     value = std::max(value, 0.0);
   }
   const double total = sphereIntegral(y, series);
-  const double scale = total > 0 ? (1 - once) / total : 0;
-  once = total > 0 ? once : 1;
+  const double scale = total > 0 ? integral / total : 0;
   for (size_t j = 0; j < p.size(); ++j) {
     result[j] = static_cast<float>(std::log(std::max(once * p[j] + scale * series[j], FLOOR)));
   }
@@ -95,16 +105,19 @@ void channelRows(const PhaseCurve& curve, size_t channel, float* result) {
   legendreMoments(curve.y, peakOf(curve, channel), peak);
   std::vector<std::vector<double>> series;
   std::vector<double> once;
+  std::vector<double> integral;
   for (size_t row = 0; row < kPhaseDepths; ++row) {
     const double x = depthNode(static_cast<double>(row) / (kPhaseDepths - 1));
     once.push_back(std::exp(-x * peak[0]));
-    series.push_back(seriesOf(turnedMoments(chi, peak, x)));
+    Moments turned = turnedMoments(chi, peak, x);
+    integral.push_back(turned[0]);
+    series.push_back(seriesOf(std::move(turned)));
   }
   const size_t angles = curve.y.size();
   std::vector<double> sums(series.size() * angles);
   legendreSums(curve.y, series, sums);
   for (size_t row = 0; row < kPhaseDepths; ++row) {
-    writeRow(curve.y, p, once[row], std::span(sums).subspan(row * angles, angles),
+    writeRow(curve.y, p, once[row], integral[row], std::span(sums).subspan(row * angles, angles),
              result + row * angles);
   }
 }
@@ -202,10 +215,10 @@ std::vector<double> mixture(std::span<const TransportPhase* const> media,
   return result;
 }
 
-// chi'_L b_L, the coefficients of Y_Lm. |Y_Lm|^2 <= 2 L + 1, so that what is dropped adds up to
+// chi'_L b_L, the coefficients of Y_Lm, b_L with the moments of what came before. |Y_Lm|^2 <= 2 L + 1, so that what is dropped adds up to
 // less than PAIR_DROPPED.
-Moments pairSeries(const Moments& chi, size_t l, size_t m) {
-  Moments series = productMoments(chi, l, m);
+Moments pairSeries(const Moments& chi, const Moments& before, size_t l, size_t m) {
+  Moments series = productMoments(before, l, m);
   std::transform(chi.begin(), chi.end(), series.begin(), series.begin(), std::multiplies<>());
   double rest = 0;
   while (!series.empty() &&
@@ -218,11 +231,11 @@ Moments pairSeries(const Moments& chi, size_t l, size_t m) {
 
 // Of one function for all channels.
 void writeResponse(size_t l, size_t m, const std::array<Moments, SOURCE_CHANNELS>& chi,
-                   float* response) {
+                   const std::array<Moments, SOURCE_CHANNELS>& before, float* response) {
   std::array<Moments, SOURCE_CHANNELS> series;
   size_t count = m + 1;
   for (size_t c = 0; c < SOURCE_CHANNELS; ++c) {
-    series[c] = pairSeries(chi[c], l, m);
+    series[c] = pairSeries(chi[c], before[c], l, m);
     count = std::max(count, series[c].size());
   }
   for (Moments& one : series) {
@@ -240,6 +253,17 @@ void writeResponse(size_t l, size_t m, const std::array<Moments, SOURCE_CHANNELS
     }
     for (size_t c = 0; c < SOURCE_CHANNELS; ++c) {
       response[node * 4 + c] = static_cast<float>(sums[c]);
+    }
+  }
+}
+
+void firstMoments(const Moments& before, TransportPairs::Products& result) {
+  for (size_t i = 0; i < TRANSPORT_FIRST; ++i) {
+    for (size_t m = 0; m <= i; ++m) {
+      const Moments product = productMoments(before, i, m);
+      for (size_t l = m; l < TRANSPORT_MOMENTS; ++l) {
+        result[l][i][m] = static_cast<float>(product[l]);
+      }
     }
   }
 }
@@ -285,7 +309,7 @@ SourceRows peakRows(const PhaseCurve& curve) {
 TransportPairs transportPairs(std::span<const TransportPhase* const> media,
                               std::span<const double> weights) {
   TransportPairs pairs;
-  pairs.response.resize(PAIR_FUNCTIONS * PAIR_NODES * 4);
+  pairs.response.resize(2 * PAIR_FUNCTIONS * PAIR_NODES * 4);
   const std::vector<double>& y = media[0]->y;
   std::array<std::vector<double>, SOURCE_CHANNELS> p;
   std::array<Moments, SOURCE_CHANNELS> chi;
@@ -299,20 +323,23 @@ TransportPairs transportPairs(std::span<const TransportPhase* const> media,
       mean[l] += exact[l] / SOURCE_CHANNELS;
     }
   }
+  std::array<Moments, SOURCE_CHANNELS> twice = chi;
+  for (Moments& moments : twice) {
+    std::transform(moments.begin(), moments.end(), moments.begin(), squared);
+  }
   size_t function = 0;
   for (size_t l = 0; l < TRANSPORT_FIRST; ++l) {
     for (size_t m = 0; m <= l; ++m, ++function) {
-      writeResponse(l, m, chi, &pairs.response[function * PAIR_NODES * 4]);
+      writeResponse(l, m, chi, chi, &pairs.response[function * PAIR_NODES * 4]);
+      writeResponse(l, m, chi, twice,
+                    &pairs.response[(PAIR_FUNCTIONS + function) * PAIR_NODES * 4]);
     }
   }
-  for (size_t i = 0; i < TRANSPORT_FIRST; ++i) {
-    for (size_t m = 0; m <= i; ++m) {
-      const Moments product = productMoments(mean, i, m);
-      for (size_t l = m; l < TRANSPORT_MOMENTS; ++l) {
-        pairs.first[l][i][m] = static_cast<float>(product[l]);
-      }
-    }
-  }
+  // The mean of the squares is not the square of the mean where colours differ: a few 1e-4 of it.
+  Moments square = mean;
+  std::transform(mean.begin(), mean.end(), square.begin(), squared);
+  firstMoments(mean, pairs.first);
+  firstMoments(square, pairs.second);
   return pairs;
 }
 

@@ -33,23 +33,26 @@ struct TransportPhase {
 // a chord. f and moments to 1e-5 (TransportPhase.HasThePeakAndTheMomentsOfItsDefinition); 0.1 ms.
 TransportPhase transportPhase(const PhaseCurve& curve);
 
-// Light that is scattered once by P, and was turned x f times in the mean by the peak (moments p_l,
-// p_0 = f) on its way to and from there: moments chi_l e^(-x (f - p_l)), x = albedo * optical depth
-// of the whole way = depthNode(row / 31), in the layout of sourceRows. Row 0 is P. Each row has
-// integral 1 (PeakRows.ArePAtZero...): the loss is in tau' = (1 - f albedo) tau. Each channel has
-// its own f. No forward fractions. Series to 1e-7 / sr; as long as sourceRows: 35 ms for droplets
-// of 5 um, 480 ms for 50 um, one core.
+// Light that is scattered once by P and was turned by the peak on its way to and from there, x =
+// albedo * optical depth of the whole way, attenuated by tau' = (1 - f albedo) tau elsewhere: the
+// rest has moments (chi_l - p_l) e^(-x (f - p_l)), p_l those of the peak, p_0 = f. Light that only
+// the peak has turned, k + 1 times, is met at each of its turns: moments p_l^(k + 1) e^(-x f) x^k /
+// (k + 1)!. In the layout of sourceRows; row 0 is P. Integral 1 - f + (1 - e^(-x f)) / x. Each
+// channel has its own f. No forward fractions. 2048 nodes: 10 to 500 ms, as sourceRows.
 SourceRows peakRows(const PhaseCurve& curve);
 
 // Real spherical harmonics Y_lm about s, the direction in which the light travels: m > 0
 // with cos(m azimuth), mean of Y^2 over the sphere 1, no Condon-Shortley sign: Y_11 = sqrt(3) x.
 struct TransportPairs {
+  using Products = std::array<std::array<std::array<float, TRANSPORT_FIRST>, TRANSPORT_FIRST>,
+                              TRANSPORT_MOMENTS>;
   // Integral over directions w of 4 pi P'(w v) P'(w s) Y_lm(w), RGB and a 0, for v at azimuth 0:
-  // [function][node][4].
+  // [function][node][4]; then as many with P' scattered twice instead of P'(w s).
   std::vector<float> response;
-  // Integral of P'(w s) Y_lm(w) Y_l'm(w), mean over the channels: [l][l'][m], m <= min(l, l').
-  std::array<std::array<std::array<float, TRANSPORT_FIRST>, TRANSPORT_FIRST>, TRANSPORT_MOMENTS>
-      first{};
+  // Integral of P'(w s) Y_lm(w) Y_l'm(w), mean over the channels: [l][l'][m], m <= min(l, l'); and
+  // with P' scattered twice.
+  Products first{};
+  Products second{};
 };
 
 // Of the mixture sum w_i P'_i: one or more media over the same nodes, weights of sum 1. Response to
