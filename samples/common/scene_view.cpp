@@ -7,9 +7,8 @@ namespace host {
 namespace {
 
 WlkQuality parseQuality(const JsonNode& node) {
-  node.onlyKeys(
-      {"level", "sliceCount", "batchSize", "lightBufferSize", "slicing", "scattering", "volumeCells",
-       "noSkip"});
+  node.onlyKeys({"level", "sliceCount", "batchSize", "lightBufferSize", "slicing", "scattering",
+                 "volumeCells", "noSkip"});
   auto quality = make<WlkQuality>();
   // The words stand in the order of the API's values.
   if (node.has("level")) {
@@ -24,7 +23,8 @@ WlkQuality parseQuality(const JsonNode& node) {
   }
   if (node.has("scattering")) {
     quality.scattering =
-        node.at("scattering").word({"default", "single", "forward", "forward-integer", "all-orders"});
+        node.at("scattering")
+            .word({"default", "single", "forward", "forward-integer", "all-orders"});
   }
   if (node.has("noSkip") && node.at("noSkip").boolean()) {
     quality.flags |= WLK_QUALITY_NO_SKIP;

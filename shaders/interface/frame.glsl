@@ -22,7 +22,8 @@ struct FrameUniforms {
   vec4 fog;             // extinction at base, base altitude, scale height, planet radius
   vec4 fogAlbedo;       // RGB; w: 1 / number of lights that the sky table has room for
   vec4 absorber;        // RGB absorption at the peak, altitude of the peak
-  vec4 ground;          // RGB albedo
+  // RGB albedo; power of the volumes' transmittance by which they hide the disk more than that.
+  vec4 ground;
   vec4 colorRed;        // rows of the matrix from wavelengths to the target's colours
   vec4 colorGreen;
   vec4 colorBlue;

@@ -21,7 +21,7 @@ struct TransportDirection {
 
 struct TransportUniforms {
   ivec4 size[TRANSPORT_LEVELS];   // cells along the box's axes, and in all
-  // First cell of the level in lists that hold all levels; the same over the finest one's share.
+  // x: first cell of the level in lists that hold all levels.
   ivec4 place[TRANSPORT_LEVELS];
   TransportDirection directions[TRANSPORT_LEVELS * TRANSPORT_DIRECTIONS];
   TransportDirection light;       // the light's own, at twice the resolution
@@ -37,7 +37,8 @@ struct TransportUniforms {
   vec4 gridSize;
   vec4 extinctionScale;           // per field: extinction (1/m) at value 1
   vec4 fieldMoments[4];           // per field: albedo * moments of what is not in the peak
-  vec4 peak;                      // x: extinction without the peak over extinction; y: taps per axis
+  // Extinction without the peak over extinction; samples per half cell and axis.
+  vec4 peak;
 };
 
 struct TransportPush {

@@ -149,6 +149,17 @@ vec3 diskRadiance(vec3 direction) {
   return sum;
 }
 
+// Whether volumes may cover the pixel, and what they left there.
+bool covered(uvec2 pixel) {
+  vec2 p = vec2(pixel);
+  return p.x >= frame.volumeRect.x && p.y >= frame.volumeRect.y && p.x < frame.volumeRect.z &&
+         p.y < frame.volumeRect.w;
+}
+
+vec4 volumeState(uvec2 pixel) {
+  return frameState[pixel.y * uint(frame.viewport.x) + pixel.x];
+}
+
 PixelLayer pixelLayer(uvec2 pixel) {
   vec3 direction = pixelDirection(frame, vec2(pixel));
   float surface = INFINITE_DISTANCE;
@@ -178,17 +189,18 @@ PixelLayer pixelLayer(uvec2 pixel) {
       layer.transmittance = vec3(0.0f);
     }
   } else if (open && DISK_KIND > 0u && LIGHT_ENABLED) {
-    layer.radiance += layer.transmittance * diskRadiance(direction);
-  }
-  if (VOLUMES_ENABLED) {
-    vec2 p = vec2(pixel);
-    bool covered = p.x >= frame.volumeRect.x && p.y >= frame.volumeRect.y &&
-                   p.x < frame.volumeRect.z && p.y < frame.volumeRect.w;
-    if (covered) {
-      vec4 state = frameState[pixel.y * uint(frame.viewport.x) + pixel.x];
-      layer.radiance = compositeOver(state.xyz, state.w, layer.radiance);
-      layer.transmittance *= state.w;
+    vec3 disk = diskRadiance(direction);
+    if (VOLUMES_ENABLED && covered(pixel)) {
+      // Forward peaks pass for transmitted light, but not as an image.
+      float hides = volumeState(pixel).w;
+      disk *= exp(log(max(hides, 1.0e-30f)) * frame.ground.w);
     }
+    layer.radiance += layer.transmittance * disk;
+  }
+  if (VOLUMES_ENABLED && covered(pixel)) {
+    vec4 state = volumeState(pixel);
+    layer.radiance = compositeOver(state.xyz, state.w, layer.radiance);
+    layer.transmittance *= state.w;
   }
   vec3 color = vec3(dot(frame.colorRed.xyz, layer.radiance),
                     dot(frame.colorGreen.xyz, layer.radiance),

@@ -45,6 +45,7 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 #include "air_nodes.glsl"
 
 const float RAY_ENDS = 1.0e-6f;    // transmittance at which a ray ends; bounds its relative error
+const float HIDDEN = 18.0f;         // optical depth by the grid beyond which nothing is looked at
 const float LONGEST_RAY = 1.0e7f; // m inside one volume
 const uint MAX_SUBSTEPS = 256u;   // per slab, for rays that run along it
 
@@ -84,6 +85,27 @@ vec3 scatteredLight(vec4 extinction, vec3 single[4], vec2 light, float angle, fl
     sum += intensity * albedo * source * extinction[i];
   }
   return sum;
+}
+
+// What the light's grid holds at a position in the unit box: source (1/sr per unit irradiance) and
+// extinction without the peak (1/m).
+vec4 gridAt(vec3 box) {
+  vec3 cell = box * volume.gridScale.xyz + volume.gridOffset.xyz;
+  cell = clamp(cell, vec3(0.5f), volume.gridEnd.xyz) * volume.gridEnd.w;
+  return textureLod(viewSource, cell, 0.0f);
+}
+
+// Optical depth without the peak between two points of a ray in the unit box, by the grid's cells.
+float gridDepth(vec3 origin, vec3 step_, float begin, float end) {
+  const int STEPS = 32;
+  float dt = max(end - begin, 0.0f) / float(STEPS);
+  float sum = 0.0f;
+  int i = 0;
+  do {
+    sum += gridAt(origin + (begin + (float(i) + 0.5f) * dt) * step_).w;
+    i += 1;
+  } while (i < STEPS);
+  return sum * dt;
 }
 
 void main() {
@@ -146,8 +168,15 @@ void main() {
     float dt = max(stop - t, 0.0f) / float(left);
     uint guard = 0u;
     float eyeDepth = 0.0f;
-    if (TRANSPORT && rate > 0.0f) {
-      eyeDepth = -log(max(state.w, 1.0e-20f)) / volume.texelOrigin.w;
+    if (TRANSPORT) {
+      // Rays against the light come to what is nearer in later batches.
+      float before = -log(max(state.w, 1.0e-20f));
+      if (rate < 0.0f) {
+        before = gridDepth(boxOrigin, boxStep, span.begin, t);
+        // What that hides ends before its first step.
+        last = before < HIDDEN ? last : t;
+      }
+      eyeDepth = before / volume.texelOrigin.w;
     }
     do {
       float middle = t + 0.5f * dt;
@@ -165,9 +194,7 @@ void main() {
         vec2 light = textureLod(lightBuffer, at, 0.0f).xy;
         source = scatteredLight(extinction, single, light, angle, eyeDepth + 0.5f * beta * dt);
         if (TRANSPORT) {
-          vec3 cell = (boxOrigin + middle * boxStep) * volume.gridScale.xyz + volume.gridOffset.xyz;
-          cell = clamp(cell, vec3(0.5f), volume.gridEnd.xyz) * volume.gridEnd.w;
-          vec3 more = textureLod(viewSource, cell, 0.0f).xyz;
+          vec3 more = gridAt(boxOrigin + middle * boxStep).xyz;
           source += more * (beta * volume.texelOrigin.w);
         }
         source *= air.light;

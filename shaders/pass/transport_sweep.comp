@@ -44,8 +44,9 @@ void main() {
     ivec4 cells = base + ivec4(a.x * across.x + a.y * across.y, b.x * across.x + a.y * across.y,
                                a.x * across.x + b.y * across.y, b.x * across.x + b.y * across.y);
     vec4 w = vec4((1.0f - f.x) * (1.0f - f.y), f.x * (1.0f - f.y), (1.0f - f.x) * f.y, f.x * f.y);
-    float beta = dot(w, vec4(kept[extinctionAt(level, cells.x)], kept[extinctionAt(level, cells.y)],
-                             kept[extinctionAt(level, cells.z)], kept[extinctionAt(level, cells.w)]));
+    vec4 betas = vec4(kept[extinctionAt(level, cells.x)], kept[extinctionAt(level, cells.y)],
+                      kept[extinctionAt(level, cells.z)], kept[extinctionAt(level, cells.w)]);
+    float beta = dot(w, betas);
     vec4 around;
     if (first) {
       around = vec4(kept[lightAt(level, cells.x)], kept[lightAt(level, cells.y)],

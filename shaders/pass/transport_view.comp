@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What each cell scatters towards the eye of light scattered before, 1/sr per unit irradiance:
+// What each cell scatters towards the eye of light scattered before, 1/sr per unit irradiance, and
+// its extinction (1/m):
 // light scattered once and twice by products of phase functions, the rest by its harmonics.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -71,5 +72,5 @@ void main() {
   rest += 1.3228757f * z * (5.0f * z * z - 3.0f) * kept[sourceAt(0, 12, cell)];
 
   vec3 source = max(first + vec3(rest), vec3(0.0f)) * 0.0795774715f;
-  imageStore(viewSource, place, vec4(source, 0.0f));
+  imageStore(viewSource, place, vec4(source, kept[extinctionAt(0, cell)]));
 }

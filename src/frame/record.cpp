@@ -6,6 +6,7 @@
 
 #include "failure.hpp"
 #include "frame/bindings.hpp"
+#include "frame/composite_record.hpp"
 #include "frame/resources.hpp"
 #include "frame/sky_bindings.hpp"
 #include "frame/transport_record.hpp"
@@ -102,31 +103,19 @@ class Recorder {
       find(skyTableKey(plan.airKind(), plan.fog, plan.lightCount(), plan.allLight));
     }
     if (plan.composite) {
-      CompositeVariant v{};
-      v.air = plan.airKind();
-      v.fog = plan.fog;
-      v.lights = plan.lightCount();
-      v.volumes = view_.resources.volumeCapacity > 0;
-      v.depth = static_cast<bool>(targets_.depth);
-      v.ground = plan.ground;
-      v.multiple = plan.multiple;
-      v.space = plan.space;
-      v.allLight = plan.allLight;
-      // Variants are prepared for a layer as a whole; until one for space is, the table must do.
-      vk::PipelineKey key;
-      bool found = false;
-      for (const bool space : {v.space, false}) {
-        for (const uint32_t disk : {plan.diskKind(), 1U, 2U}) {
-          if (!found) {
-            v.space = space;
-            v.disk = disk;
-            key = compositeKey(view_.info, v);
-            found = pipelines_.find(key) != VK_NULL_HANDLE;
-          }
-        }
-      }
-      compositePipeline_ = find(key);
+      compositePipeline_ =
+          find(compositeKeyOf(pipelines_, view_, static_cast<bool>(targets_.depth)));
     }
+  }
+
+  // Mean over the volumes drawn; 0 where they have no part of the light pass.
+  float diskPower() const {
+    float sum = 0;
+    for (uint32_t i = 0; quality_.transport && i < view_.plan.drawnCount; ++i) {
+      const double peak = volumeOf(view_.plan.volumes[i]).state->transport->peak;
+      sum += static_cast<float>(1 / std::max(1 - peak, 1e-3) - 1);
+    }
+    return sum / static_cast<float>(std::max(view_.plan.drawnCount, 1U));
   }
 
   void start() {
@@ -144,6 +133,7 @@ class Recorder {
         static_cast<char*>(view_.resources.uniforms.data()) + in_.slot * view_.resources.slotStride;
     FrameUniforms frame;
     fillFrame(*in_.air, *in_.sky, view_, frame);
+    frame.ground.w = diskPower();
     frame.output_.w = targets_.inputIsTarget || targets_.colorInput ? 1.0f : 0.0f;
     std::memcpy(memory, &frame, sizeof frame);
     skyKey_ = skyTableKeyOf(frame);
@@ -164,8 +154,8 @@ class Recorder {
             GENERAL_STATE);
       light.layout = VK_IMAGE_LAYOUT_GENERAL;
     }
-    for (vk::Image* table : {&view_.resources.skyTable, &view_.resources.skyPeak,
-                             &view_.resources.viewSource}) {
+    for (vk::Image* table :
+         {&view_.resources.skyTable, &view_.resources.skyPeak, &view_.resources.viewSource}) {
       if (*table && table->layout == VK_IMAGE_LAYOUT_UNDEFINED) {
         image(table->handle(), VK_IMAGE_ASPECT_COLOR_BIT,
               {VK_IMAGE_LAYOUT_UNDEFINED, 0, VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE},
@@ -353,10 +343,10 @@ class Recorder {
     bindings_.image(set, vk::BIND_DEPTH, targets_.depth ? targets_.depth.view : in_.dummy2d,
                     pipelines_.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     bindSkyLookup(bindings_, pipelines_, r, set, {vk::BIND_SKY_TABLE, vk::BIND_SKY_PEAK}, in_);
-    bindings_.image(set, vk::BIND_VIEW_SOURCE, r.viewSource ? r.viewSource.view() : in_.dummy3d,
-                    pipelines_.linear(),
-                    r.viewSource ? VK_IMAGE_LAYOUT_GENERAL
-                                 : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    bindings_.image(
+        set, vk::BIND_VIEW_SOURCE, r.viewSource ? r.viewSource.view() : in_.dummy3d,
+        pipelines_.linear(),
+        r.viewSource ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     const vk::Buffer& volumeState = r.volumeState ? r.volumeState : r.frameState;
     bindings_.buffer(set, vk::BIND_FRAME_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                      r.frameState.handle(), 0, r.frameState.size());
@@ -371,7 +361,7 @@ class Recorder {
     stats.reason = view_.plan.compositeReason;
     const auto index = static_cast<uint32_t>(view_.record.passes.size());
     if (view_.plan.composite) {
-      bindComposite();
+      bindComposite(bindings_, pipelines_, view_, targets_, in_, counterOffset());
       orderShaders();
       if (view_.info.composite == WLK_COMPOSITE_BLEND) {
         drawBlend(stats, index);
@@ -388,42 +378,6 @@ class Recorder {
               VK_ACCESS_2_HOST_READ_BIT);
     }
     view_.record.passes.push_back(stats);
-  }
-
-  void bindComposite() {
-    const ViewResources& r = view_.resources;
-    BoundSet& set = slot_.composite;
-    bindings_.buffer(set, vk::BIND_COMPOSITE_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-                     r.uniforms.handle(), in_.slot * r.slotStride, sizeof(FrameUniforms));
-    bindings_.buffer(set, vk::BIND_COMPOSITE_FOG_CURVE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                     r.uniforms.handle(), in_.slot * r.slotStride + r.fogOffset, FOG_CURVE_BYTES);
-    bindings_.buffer(set, vk::BIND_COMPOSITE_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                     r.frameState.handle(), 0, r.frameState.size());
-    bindings_.buffer(set, vk::BIND_COMPOSITE_COUNTERS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                     r.counters.handle(), counterOffset(), 16);
-    bindings_.image(set, vk::BIND_COMPOSITE_DEPTH,
-                    targets_.depth ? targets_.depth.view : in_.dummy2d, pipelines_.nearest(),
-                    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    bindSkyLookup(bindings_, pipelines_, r, set,
-                  {vk::BIND_COMPOSITE_SKY_TABLE, vk::BIND_COMPOSITE_SKY_PEAK}, in_);
-    bindings_.image(set, vk::BIND_COMPOSITE_SKY_MOMENTS, momentsOf(in_), pipelines_.linear(),
-                    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    const bool blend = view_.info.composite == WLK_COMPOSITE_BLEND;
-    if (targets_.inputIsTarget && !blend) {
-      bindings_.image(set, vk::BIND_COMPOSITE_INPUT, targets_.target0.view, pipelines_.nearest(),
-                      VK_IMAGE_LAYOUT_GENERAL);
-    } else {
-      bindings_.image(set, vk::BIND_COMPOSITE_INPUT,
-                      targets_.colorInput ? targets_.colorInput.view : in_.dummy2d,
-                      pipelines_.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    }
-    if (!blend) {
-      const TargetImage& second = targets_.target1 ? targets_.target1 : targets_.target0;
-      bindings_.image(set, vk::BIND_COMPOSITE_TARGET0, targets_.target0.view, VK_NULL_HANDLE,
-                      VK_IMAGE_LAYOUT_GENERAL);
-      bindings_.image(set, vk::BIND_COMPOSITE_TARGET1, second.view, VK_NULL_HANDLE,
-                      VK_IMAGE_LAYOUT_GENERAL);
-    }
   }
 
   void drawBlend(WlkPassStats& stats, uint32_t index) {

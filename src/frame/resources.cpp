@@ -130,8 +130,8 @@ void makeSkyTables(vk::Device& device, const SceneFeatures& features, ViewResour
 
 void makeTransport(vk::Device& device, const SliceQuality& quality, uint32_t volumes,
                    ViewResources& r) {
-  const TransportSizes sizes = transportSizes(
-      {quality.transportCells, quality.transportCells, quality.transportCells});
+  const TransportSizes sizes =
+      transportSizes({quality.transportCells, quality.transportCells, quality.transportCells});
   r.transportWork = vk::Buffer(device, sizes.workBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
   r.grids.resize(volumes);
   for (TransportGrid& grid : r.grids) {
@@ -313,8 +313,8 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   r.transportStride =
       quality.transport ? alignUp(sizeof(interface_::TransportUniforms), alignment) : 0;
   r.transportOffset = alignUp(r.fogOffset + FOG_CURVE_BYTES, both);
-  r.slotStride = r.transportOffset +
-                 alignUp(volumeCount * (r.transportStride + r.volumeStride), both);
+  r.slotStride =
+      r.transportOffset + alignUp(volumeCount * (r.transportStride + r.volumeStride), both);
   r.uniforms =
       vk::Buffer(device, r.slotStride * framesInFlight,
                  VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true);

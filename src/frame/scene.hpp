@@ -160,7 +160,7 @@ struct ViewSlot {
 struct ViewResources {
   explicit ViewResources(std::pmr::memory_resource* memory) : grids(memory), slots(memory) {}
   vk::Image lightBuffer;
-  vk::Image viewSource;       // what cells of the volume in turn scatter towards the eye
+  vk::Image viewSource;  // what cells of the volume in turn scatter towards the eye
   vk::Buffer transportWork;
   VkDeviceSize transportStride = 0;
   VkDeviceSize transportOffset = 0;

@@ -236,8 +236,7 @@ TransportSizes transportSizes(const std::array<uint32_t, 3>& cells) {
   }
   const VkDeviceSize finest = sizes.cells[0];
   sizes.workBytes = sizeof(float) * (2 * TERMS * total + 2 * DIRECTIONS * finest);
-  sizes.keptBytes =
-      sizeof(float) * ((6 + TERMS) * total + 2 * interface_::FIRST_TERMS * finest);
+  sizes.keptBytes = sizeof(float) * ((6 + TERMS) * total + 2 * interface_::FIRST_TERMS * finest);
   return sizes;
 }
 
@@ -253,6 +252,8 @@ TransportMedia transportMedia(const VolumeState& volume) {
     list.push_back(&phases[i]);
     media.peak += weights[i] * meanAlbedo(volume.fields[i]) * phases[i].peak;
   }
+  // Of a phase function that is all peak something is left to divide by.
+  media.peak = std::min(media.peak, 0.99);
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
     const double f = phases[i].peak;
     const double albedo = meanAlbedo(volume.fields[i]);
@@ -314,8 +315,9 @@ void fillTransport(const VolumeState& volume, const glm::dvec3& toLight,
     out.place[level] = {place, 0, 0, 0};
     place += count;
     for (size_t d = 0; d < DIRECTIONS; ++d) {
-      out.directions[static_cast<size_t>(level) * DIRECTIONS + d] = directionThrough(
-          cellsFromWorld(boxFromWorld, shape, 1.0 / (1 << level)), turn * q.direction[d], q.weight[d]);
+      out.directions[static_cast<size_t>(level) * DIRECTIONS + d] =
+          directionThrough(cellsFromWorld(boxFromWorld, shape, 1.0 / (1 << level)),
+                           turn * q.direction[d], q.weight[d]);
     }
   }
   for (size_t d = 0; d < DIRECTIONS; ++d) {

@@ -215,8 +215,8 @@ std::vector<double> mixture(std::span<const TransportPhase* const> media,
   return result;
 }
 
-// chi'_L b_L, the coefficients of Y_Lm, b_L with the moments of what came before. |Y_Lm|^2 <= 2 L + 1, so that what is dropped adds up to
-// less than PAIR_DROPPED.
+// chi'_L b_L, the coefficients of Y_Lm, b_L with the moments of what came before. |Y_Lm|^2 <= 2 L +
+// 1, so that what is dropped adds up to less than PAIR_DROPPED.
 Moments pairSeries(const Moments& chi, const Moments& before, size_t l, size_t m) {
   Moments series = productMoments(before, l, m);
   std::transform(chi.begin(), chi.end(), series.begin(), series.begin(), std::multiplies<>());
