@@ -155,12 +155,12 @@ TransportCommands recordTransport(const vk::Device& device, const vk::Pipelines&
                  VK_IMAGE_LAYOUT_GENERAL);
   bindings.buffer(set, vk::BIND_TRANSPORT_VIEW, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
                   r.uniforms.handle(), viewUniforms, sizeof(interface_::VolumeUniforms));
-  bool changing = always;
+  bool external = false;
   for (uint32_t i = 0; i < WLK_MAX_FIELDS; ++i) {
     VkImageView image = in.dummy3d;
     if (i < state.fieldCount && state.fields[i].external) {
       image = volume.externalViews[i];
-      changing = true;  // the engine may have written it since
+      external = true;  // the engine may have written it since
     } else if (i < state.fieldCount && state.fields[i].image) {
       image = state.fields[i].image.view();
     }
@@ -170,8 +170,11 @@ TransportCommands recordTransport(const vk::Device& device, const vk::Pipelines&
   device.vk().CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
                                     pipelines.transportLayout(), 0, 1, &set.set, 0, nullptr);
   TransportRecorder recorder(device, pipelines, commands, shape.cells, state.fieldCount);
-  if (!remembered(grid, uniforms, planned.id, state.version) || changing) {
+  if (!remembered(grid, uniforms, planned.id, state.version) || always || external) {
     recorder.compute();
+  }
+  if (external) {
+    grid.key.clear();  // what was uploaded may be back in the next frame
   }
   recorder.show();
   return recorder.result;
