@@ -235,8 +235,10 @@ TransportSizes transportSizes(const std::array<uint32_t, 3>& cells) {
     total += sizes.cells[level];
   }
   const VkDeviceSize finest = sizes.cells[0];
-  sizes.workBytes = sizeof(float) * (2 * TERMS * total + 2 * DIRECTIONS * finest);
-  sizes.keptBytes = sizeof(float) * ((6 + TERMS) * total + 2 * interface_::FIRST_TERMS * finest);
+  constexpr VkDeviceSize TWO = 2;
+  constexpr VkDeviceSize FIRST = interface_::FIRST_TERMS;
+  sizes.workBytes = sizeof(float) * (TWO * TERMS * total + TWO * DIRECTIONS * finest);
+  sizes.keptBytes = sizeof(float) * (VkDeviceSize{6 + TERMS} * total + TWO * FIRST * finest);
   return sizes;
 }
 
