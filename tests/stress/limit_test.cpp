@@ -130,7 +130,10 @@ TEST(Limits, OfTheQualityAreChecked) {
       {"lightBufferSize", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.lightBufferSize = 15; }},
       {"lightBufferSize", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.lightBufferSize = 2049; }},
       {"slicing", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.slicing = 3; }},
-      {"scattering", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.scattering = 4; }},
+      {"scattering", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.scattering = 5; }},
+      {"volumeCells", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.volumeCells = 7; }},
+      {"volumeCells", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.volumeCells = 129; }},
+      {"volumeCells", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.volumeCells = HUGE_COUNT; }},
       {"flags", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.flags = 2; }},
       {"flags", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.flags = uint64_t{1} << 63; }}};
   for (const auto& test : cases) {
