@@ -20,6 +20,8 @@ const char* passKind(uint32_t pass) {
       return "eye_slices";
     case WLK_PASS_SKY_TABLE:
       return "sky_table";
+    case WLK_PASS_VOLUME_LIGHT:
+      return "volume_light";
     case WLK_PASS_COMPOSITE:
       return "composite";
     default:
