@@ -9,13 +9,14 @@ vec2 skyTableDirection(AirRay ray, int light) {
   float horizon = frame.skyView.x;
   bool below = ray.viewMu < horizon;
   float range = below ? 1.0f + horizon : frame.skyView.y - horizon;
-  float rise = sqrt(clamp(abs(ray.viewMu - horizon) / max(range, 1.0e-12f), 0.0f, 1.0f));
+  float rise = clamp(abs(ray.viewMu - horizon) / max(range, 1.0e-12f), 0.0f, 1.0f);
+  rise = sqrt(2.0f * rise / (1.0f + rise));
   float sines = sqrt(max((1.0f - ray.viewMu) * (1.0f + ray.viewMu), 0.0f)) *
                 sqrt(max((1.0f - ray.sunMu) * (1.0f + ray.sunMu), 0.0f));
   float azimuth = clamp((ray.viewSun - ray.viewMu * ray.sunMu) / max(sines, 1.0e-6f), -1.0f, 1.0f);
   vec2 node = vec2((0.5f - 0.5f * azimuth) * float(SKY_AZIMUTHS - 1),
-                   rise * float(SKY_ZENITHS / 2 - 1));
-  node.y += below ? float(SKY_ZENITHS / 2) : 0.0f;
+                   below ? float(SKY_ABOVE) + rise * float(SKY_BELOW - 1)
+                         : rise * float(SKY_ABOVE - 1));
   node.x += float(light * SKY_AZIMUTHS);
   return (node + 0.5f) / vec2(float(SKY_AZIMUTHS), float(SKY_ZENITHS)) *
          vec2(frame.fogAlbedo.w, 1.0f);
