@@ -21,8 +21,8 @@ layout(constant_id = 3) const bool ALL_LIGHT = false;
 #include "air_column.glsl"
 #include "sky_light.glsl"
 
-const int STEPS = 24;
-const int FOG_STEPS_MORE = 8;
+const int STEPS = 20;
+const int FOG_STEPS_MORE = 12;
 const int BISECTIONS = 12;
 // The first node stands for the source at the eye.
 const float FIRST_SHARE = 1.0e-3f;
@@ -76,7 +76,8 @@ FirstOrder firstOrderTo(Air air, FirstOrder sum, float distance_, float radius) 
 void main() {
   ivec2 place = ivec2(gl_GlobalInvocationID.xy);
   int which = place.x / SKY_AZIMUTHS;
-  if (place.x >= imageSize(skyTable).x || place.y >= SKY_ZENITHS) {
+  int above = int(frame.fogSecond.w);
+  if (place.x >= imageSize(skyTable).x || place.y >= above + SKY_BELOW) {
     return;
   }
   if (which >= int(LIGHT_COUNT)) {
@@ -91,16 +92,18 @@ void main() {
   }
   LightUniforms light = frame.lights[which];
   Air air = airOf(frame);
-  bool below = place.y >= SKY_ABOVE;
-  float rise = below ? float(place.y - SKY_ABOVE) / float(SKY_BELOW - 1)
-                     : float(place.y) / float(SKY_ABOVE - 1);
+  bool below = place.y >= above;
+  float rise = below ? float(place.y - above) / float(SKY_BELOW - 1)
+                     : float(place.y) / float(above - 1);
   rise = max(rise, 1.0e-3f);
   rise *= rise;
+  // In twilight twice as dense at the horizon.
+  float bend = above > SKY_ABOVE ? 1.0f : 0.0f;
   float horizon = frame.skyView.x;
   float range = below ? -1.0f - horizon : frame.skyView.y - horizon;
   AirRay ray;
   ray.altitude = frame.eye.w;
-  ray.viewMu = clamp(horizon + range * rise / (2.0f - rise), -1.0f, 1.0f);
+  ray.viewMu = clamp(horizon + range * rise / (1.0f + bend * (1.0f - rise)), -1.0f, 1.0f);
   ray.sunMu = light.irradiance.w;
   float azimuth = 1.0f - 2.0f * float(place.x % SKY_AZIMUTHS) / float(SKY_AZIMUTHS - 1);
   float sines = sqrt(max((1.0f - ray.viewMu) * (1.0f + ray.viewMu), 0.0f)) *

@@ -120,7 +120,7 @@ struct SkyLightState {
 };
 
 // What a view's sky table was made for: it changes with these numbers only.
-using SkyTableKey = std::array<float, 52>;
+using SkyTableKey = std::array<float, 56>;
 
 struct ViewSlot {
   BoundSet composite;
