@@ -37,6 +37,6 @@ struct FrameUniforms {
   vec4 skyView;
   vec4 eyeFog;          // fog without the eye's part of its peak: albedo RGB, extinction
   vec4 fogFirst;        // 3 times its first moment, RGB; scale of the phase function
-  vec4 fogSecond;       // 5/2 of its second moment, RGB
+  vec4 fogSecond;       // 5/2 of its second moment, RGB; zeniths above the horizon of the sky table
   vec4 fogBound;        // largest value of the phase function without the peak, RGB, 1/sr
 };

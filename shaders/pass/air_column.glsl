@@ -2,11 +2,14 @@
 // Columns of air, fog and absorber from a ray's origin to a point of it, in closed form. m.
 
 // A ray below the horizon goes on to this distance in the sky table: surfaces may lie below sea
-// level. m.
+// level. m. Not where the table holds all light: with the sun in the horizon the light of the last
+// metres above the ground has nothing to do with that below; deeper surfaces have the ground's.
 const float SHORTEST_RAY = 2000.0f;
+const float SHORTEST_LIT_RAY = 1.0f;
 
-float skyTableReach(float ground) {
-  return ground >= 0.0f ? max(ground, SHORTEST_RAY) : INFINITE_DISTANCE;
+float skyTableReach(float ground, bool allLight) {
+  float shortest = allLight && ground > 0.0f ? SHORTEST_LIT_RAY : SHORTEST_RAY;
+  return ground >= 0.0f ? max(ground, shortest) : INFINITE_DISTANCE;
 }
 
 // The opacity in green that the table's shares count by, of what scatters: light is in proportion

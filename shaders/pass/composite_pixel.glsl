@@ -61,16 +61,37 @@ vec3 multipleLight(Air air, AirRay ray, int which, float reach, vec3 columns, ve
 
 // Radiance and transmittance of clear air over `reach`.
 PixelLayer clearAir(Air air, AirRay ray, vec3 direction, float reach, float ground) {
-  AirPath path = clipToAir(air, ray, skyTableReach(ground));
+  AirPath path = clipToAir(air, ray, skyTableReach(ground, true));
   float own = clipToAir(air, ray, reach).reach;
   AirPoint first = airPoint(air, path, 0.0f);
-  AirPoint lowest = airPoint(air, path, clamp(path.lowest, 0.0f, max(path.reach, own)));
-  AirPoint last = airPoint(air, path, path.reach);
-  AirPoint there = airPoint(air, path, own);
-  float total = skyTableOpacity(air, path, first, lowest, last);
+  // lavapipe runs both sides of a branch but leaves loops: few rays need more than one point here.
+  bool bends = path.lowest > 0.0f && path.lowest < max(path.reach, own);
+  bool open = own >= path.reach;
+  AirPoint there = first;
+  AirPoint last = first;
+  AirPoint lowest = first;
+  int point = 0;
+  float t = own;
+  for (;;) {
+    AirPoint next = airPoint(air, path, t);
+    if (point == 0) {
+      there = next;
+    } else if (point == 1) {
+      last = next;
+    } else {
+      lowest = next;
+    }
+    bool toLast = point == 0 && !open;
+    if (!toLast && (!bends || point == 2)) {
+      break;
+    }
+    point = toLast ? 1 : 2;
+    t = toLast ? path.reach : path.lowest;
+  }
   vec3 columns = columnsTo(air, path, first, lowest, there);
   vec3 opacity = opacityOf(scatteringDepth(air, columns));
-  float share = opacity.y / max(total, 1.0e-30f);
+  float total = skyTableOpacity(air, path, first, lowest, last);
+  float share = open ? 1.0f : opacity.y / max(total, 1.0e-30f);
   PixelLayer layer;
   layer.radiance = vec3(0.0f);
   for (int i = 0; i < int(LIGHT_COUNT); ++i) {

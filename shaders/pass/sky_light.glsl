@@ -7,7 +7,7 @@ const float ISOTROPIC_PHASE = 0.0795774715f;
 // A sun among four nodes in a row, as sunNodes() of src/tables/sky_table.hpp: cubic, at the texels'
 // centres, as filters of 8 bits would show in twilight.
 struct SunNodes {
-  float first;  // coordinate of the first texel's centre
+  int first;
   vec4 weights;
 };
 
@@ -21,7 +21,7 @@ SunNodes sunNodes(float mu) {
   float t = clamp(x - index, 0.0f, 1.0f);
   float u = 1.0f - t;
   SunNodes nodes;
-  nodes.first = (first + 0.5f) / float(MOMENT_SUNS);
+  nodes.first = int(first);
   nodes.weights = vec4(-0.5f * t * u * u, u * (1.0f + t - 1.5f * t * t),
                        t * (1.0f + u - 1.5f * u * u), -0.5f * u * t * t);
   if (index < first + 1.0f) {
@@ -32,18 +32,22 @@ SunNodes sunNodes(float mu) {
   return nodes;
 }
 
-// A row of the table for one sun, RGB.
-vec3 rowAt(float v, SunNodes sun) {
-  const float NEXT = 1.0f / float(MOMENT_SUNS);
-  return sun.weights.x * textureLod(skyMoments, vec2(sun.first, v), 0.0f).xyz +
-         sun.weights.y * textureLod(skyMoments, vec2(sun.first + NEXT, v), 0.0f).xyz +
-         sun.weights.z * textureLod(skyMoments, vec2(sun.first + 2.0f * NEXT, v), 0.0f).xyz +
-         sun.weights.w * textureLod(skyMoments, vec2(sun.first + 3.0f * NEXT, v), 0.0f).xyz;
+vec3 texelRow(int row, SunNodes sun) {
+  return sun.weights.x * texelFetch(skyMoments, ivec2(sun.first, row), 0).xyz +
+         sun.weights.y * texelFetch(skyMoments, ivec2(sun.first + 1, row), 0).xyz +
+         sun.weights.z * texelFetch(skyMoments, ivec2(sun.first + 2, row), 0).xyz +
+         sun.weights.w * texelFetch(skyMoments, ivec2(sun.first + 3, row), 0).xyz;
+}
+
+// A row of the table for one sun, RGB, between texels by hand: filters read twice the texels.
+vec3 rowAt(float row, SunNodes sun) {
+  int low = clamp(int(row), 0, MOMENT_ROWS - 2);
+  return mix(texelRow(low, sun), texelRow(low + 1, sun), row - float(low));
 }
 
 // Diffuse light on horizontal ground at sea level, RGB.
 vec3 groundLight(float sunMu) {
-  vec3 light = rowAt(1.0f - 0.5f / float(MOMENT_ROWS), sunNodes(sunMu));
+  vec3 light = rowAt(float(MOMENT_ROWS - 1), sunNodes(sunMu));
   return frame.skyLight.z * max(light, vec3(0.0f));
 }
 
@@ -54,8 +58,8 @@ struct SkyMoments {
   vec3 square;
 };
 
-vec3 momentAt(float v, SunNodes sun, int moment) {
-  return rowAt(v + float(moment * MOMENT_ALTITUDES) / float(MOMENT_ROWS), sun);
+vec3 momentAt(float row, SunNodes sun, int moment) {
+  return rowAt(row + float(moment * MOMENT_ALTITUDES), sun);
 }
 
 // v: the view in the frame of the moments, y up, x towards the light.
@@ -67,7 +71,7 @@ SkyMoments skyMomentsAt(float altitude, float sunMu, vec3 v) {
   float high = (1.0f - frame.skyLight.y) * sqrt(h / top) +
                frame.skyLight.y * oneMinusExp(h / fogHeight) / oneMinusExp(top / fogHeight);
   SunNodes sun = sunNodes(sunMu);
-  float row = (high * float(MOMENT_ALTITUDES - 1) + 0.5f) / float(MOMENT_ROWS);
+  float row = high * float(MOMENT_ALTITUDES - 1);
   vec3 xx = momentAt(row, sun, 0);
   vec3 yy = momentAt(row, sun, 1);
   vec3 zz = momentAt(row, sun, 2);

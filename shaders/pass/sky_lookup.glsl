@@ -3,19 +3,25 @@
 // unit irradiance of the light (1/sr), of light scattered at least twice. It varies slowly along a
 // ray, so the pixel's own exact opacity carries the detail.
 
+// Filters read the row after the last one, too, which holds anything, unless they stay this side.
+const float LAST_ZENITH = float(SKY_BELOW - 1) - 1.0f / 64.0f;
+
 // Table coordinates of a ray's direction, for one of the lights side by side. They do not depend on
 // how the camera is turned.
 vec2 skyTableDirection(AirRay ray, int light) {
   float horizon = frame.skyView.x;
+  float above = frame.fogSecond.w;
   bool below = ray.viewMu < horizon;
   float range = below ? 1.0f + horizon : frame.skyView.y - horizon;
-  float rise = sqrt(clamp(abs(ray.viewMu - horizon) / max(range, 1.0e-12f), 0.0f, 1.0f));
+  float rise = clamp(abs(ray.viewMu - horizon) / max(range, 1.0e-12f), 0.0f, 1.0f);
+  float bend = above > float(SKY_ABOVE) ? 1.0f : 0.0f;
+  rise = sqrt((1.0f + bend) * rise / (1.0f + bend * rise));
   float sines = sqrt(max((1.0f - ray.viewMu) * (1.0f + ray.viewMu), 0.0f)) *
                 sqrt(max((1.0f - ray.sunMu) * (1.0f + ray.sunMu), 0.0f));
   float azimuth = clamp((ray.viewSun - ray.viewMu * ray.sunMu) / max(sines, 1.0e-6f), -1.0f, 1.0f);
   vec2 node = vec2((0.5f - 0.5f * azimuth) * float(SKY_AZIMUTHS - 1),
-                   rise * float(SKY_ZENITHS / 2 - 1));
-  node.y += below ? float(SKY_ZENITHS / 2) : 0.0f;
+                   below ? above + min(rise * float(SKY_BELOW - 1), LAST_ZENITH)
+                         : rise * (above - 1.0f));
   node.x += float(light * SKY_AZIMUTHS);
   return (node + 0.5f) / vec2(float(SKY_AZIMUTHS), float(SKY_ZENITHS)) *
          vec2(frame.fogAlbedo.w, 1.0f);

@@ -21,8 +21,8 @@ layout(constant_id = 3) const bool ALL_LIGHT = false;
 #include "air_column.glsl"
 #include "sky_light.glsl"
 
-const int STEPS = 24;
-const int FOG_STEPS_MORE = 8;
+const int STEPS = 20;
+const int FOG_STEPS_MORE = 12;
 const int BISECTIONS = 12;
 // The first node stands for the source at the eye.
 const float FIRST_SHARE = 1.0e-3f;
@@ -54,24 +54,30 @@ Node between(Node a, Node b, float part) {
   return node;
 }
 
-void store(ivec2 place, int share, Node node, Air air, AirRay ray, float radius, float total) {
-  vec3 source = node.light / max(node.opacity, vec3(1.0e-30f));
-  if (ALL_LIGHT) {
-    AirResult first = airAlongRay(air, ray, node.distance_, 1.0f, vec3(0.0f), radius);
-    source = source / rayleighPhase(1.0f - ray.viewSun) +
-             first.radiance / max(opacityOf(scatteringDepth(air, first.columns)), vec3(1.0e-30f));
-  }
-  imageStore(skyTable, ivec3(place, share), vec4(source, total));
-  if (FOG_ENABLED) {
-    vec3 peak = node.peak / max(node.opacity, vec3(1.0e-30f));
-    imageStore(skyPeak, ivec3(place, share), vec4(peak, 0.0f));
-  }
+// First order up to the last node stored: each node's stretch goes on from the node before.
+struct FirstOrder {
+  AirRay ray;
+  float distance_;
+  vec3 light;
+  vec3 columns;
+};
+
+FirstOrder firstOrderTo(Air air, FirstOrder sum, float distance_, float radius) {
+  AirResult part =
+      airAlongRay(air, sum.ray, max(distance_ - sum.distance_, 0.0f), 1.0f, vec3(0.0f), radius);
+  FirstOrder next;
+  next.light = sum.light + safeExp3(-depthOfColumns(air, sum.columns)) * part.radiance;
+  next.columns = sum.columns + part.columns;
+  next.ray = advanceRay(air, sum.ray, max(distance_ - sum.distance_, 0.0f));
+  next.distance_ = distance_;
+  return next;
 }
 
 void main() {
   ivec2 place = ivec2(gl_GlobalInvocationID.xy);
   int which = place.x / SKY_AZIMUTHS;
-  if (place.x >= imageSize(skyTable).x || place.y >= SKY_ZENITHS) {
+  int above = int(frame.fogSecond.w);
+  if (place.x >= imageSize(skyTable).x || place.y >= above + SKY_BELOW) {
     return;
   }
   if (which >= int(LIGHT_COUNT)) {
@@ -86,15 +92,18 @@ void main() {
   }
   LightUniforms light = frame.lights[which];
   Air air = airOf(frame);
-  const int HALF = SKY_ZENITHS / 2;
-  bool below = place.y >= HALF;
-  float rise = float(place.y - (below ? HALF : 0)) / float(HALF - 1);
+  bool below = place.y >= above;
+  float rise = below ? float(place.y - above) / float(SKY_BELOW - 1)
+                     : float(place.y) / float(above - 1);
   rise = max(rise, 1.0e-3f);
+  rise *= rise;
+  // In twilight twice as dense at the horizon.
+  float bend = above > SKY_ABOVE ? 1.0f : 0.0f;
   float horizon = frame.skyView.x;
   float range = below ? -1.0f - horizon : frame.skyView.y - horizon;
   AirRay ray;
   ray.altitude = frame.eye.w;
-  ray.viewMu = clamp(horizon + range * rise * rise, -1.0f, 1.0f);
+  ray.viewMu = clamp(horizon + range * rise / (1.0f + bend * (1.0f - rise)), -1.0f, 1.0f);
   ray.sunMu = light.irradiance.w;
   float azimuth = 1.0f - 2.0f * float(place.x % SKY_AZIMUTHS) / float(SKY_AZIMUTHS - 1);
   float sines = sqrt(max((1.0f - ray.viewMu) * (1.0f + ray.viewMu), 0.0f)) *
@@ -102,7 +111,7 @@ void main() {
   ray.viewSun = ray.viewMu * ray.sunMu + sines * azimuth;
   float ground = groundDistance(ray.altitude, ray.viewMu, air.planetRadius);
 
-  AirPath path = clipToAir(air, ray, skyTableReach(ground));
+  AirPath path = clipToAir(air, ray, skyTableReach(ground, ALL_LIGHT));
   AirPoint lowest = airPoint(air, path, clamp(path.lowest, 0.0f, path.reach));
   SkyMarch march = skyMarchBegin(air, path);
   AirPoint first = march.at;
@@ -148,11 +157,25 @@ void main() {
     }
     here = next;
   }
+  FirstOrder sum;
+  sum.ray = ray;
+  sum.distance_ = 0.0f;
+  sum.light = sum.columns = vec3(0.0f);
   for (int k = 0; k < SKY_SHARES; ++k) {
     Node node = here;
     if (k < share) {
       node = nodes[k];
     }
-    store(place, k, node, air, ray, light.direction.w, total);
+    vec3 source = node.light / max(node.opacity, vec3(1.0e-30f));
+    if (ALL_LIGHT) {
+      sum = firstOrderTo(air, sum, node.distance_, light.direction.w);
+      source = source / rayleighPhase(1.0f - ray.viewSun) +
+               sum.light / max(opacityOf(scatteringDepth(air, sum.columns)), vec3(1.0e-30f));
+    }
+    imageStore(skyTable, ivec3(place, k), vec4(source, total));
+    if (FOG_ENABLED) {
+      vec3 peak = node.peak / max(node.opacity, vec3(1.0e-30f));
+      imageStore(skyPeak, ivec3(place, k), vec4(peak, 0.0f));
+    }
   }
 }

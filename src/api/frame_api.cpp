@@ -254,8 +254,7 @@ void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
   input.volumes = view.planVolumes;
   makePlan(input, view.plan);
   const PlanetFrame eye = planetFrameAt(input.planet, input.eye);
-  view.plan.space = view.plan.multiple && seenFromSpace(c.skyLight.now, eye.altitude);
-  view.plan.allLight = tableHoldsAllLight(view.plan, c.skyLight.now, input.planet.radius, eye);
+  chooseSkyTable(c.skyLight.now, input.planet.radius, eye, view.plan);
 
   RecordInput record;
   record.air = &c.air;

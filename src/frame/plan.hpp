@@ -129,9 +129,10 @@ struct Plan {
   bool disk = false;
   bool shapedDisk = false;
   bool ground = false;
-  bool multiple = false;  // its light scattered more than once is shown
-  bool space = false;     // and gathered by every pixel
-  bool allLight = false;  // clear air: its table holds light scattered once, too
+  bool multiple = false;    // its light scattered more than once is shown
+  bool space = false;       // and gathered by every pixel
+  bool allLight = false;    // clear air: its table holds light scattered once, too
+  uint32_t skyZeniths = 0;  // of its table
   bool composite = false;
   uint32_t skyReason = WLK_REASON_NEEDED;
   uint32_t compositeReason = WLK_REASON_NEEDED;

@@ -185,7 +185,7 @@ class Recorder {
         const uint32_t lights = plan.lightCount();
         const uint32_t width = groups(interface_::SKY_AZIMUTHS * lights) + (lights < r.lights);
         dispatch(find(skyTableKey(plan.airKind(), plan.fog, lights, plan.allLight)),
-                 pipelines_.skyLayout(), nullptr, width, groups(interface_::SKY_ZENITHS), stats, 0);
+                 pipelines_.skyLayout(), nullptr, width, groups(plan.skyZeniths), stats, 0);
         orderShaders();
         r.skyKey = skyKey_;
         r.skyVersion = in_.sky->version;

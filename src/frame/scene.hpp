@@ -134,7 +134,7 @@ struct SkyLightState {
 };
 
 // What a view's sky table was made for: it changes with these numbers only.
-using SkyTableKey = std::array<float, 52>;
+using SkyTableKey = std::array<float, 56>;
 
 // The light inside a volume that a view shows, and what it was computed from.
 struct TransportGrid {

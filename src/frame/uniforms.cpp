@@ -41,6 +41,7 @@ void fillSky(const AirState& air, double altitude, const Plan& plan, const SkyLi
   out.eyeFog.w = static_cast<float>(share * (air.fog ? air.fog->extinction : 0.0));
   out.fogFirst = sky.fogFirst;
   out.fogSecond = sky.fogSecond;
+  out.fogSecond.w = static_cast<float>(plan.skyZeniths - interface_::SKY_BELOW);
   out.fogBound = sky.fogBound;
 }
 
@@ -107,18 +108,24 @@ bool seenFromSpace(const SkyLightConstants& sky, double altitude) {
   return altitude > SPACE * sky.top;
 }
 
-bool tableHoldsAllLight(const Plan& plan, const SkyLightConstants& sky, double planetRadius,
-                        const PlanetFrame& eye) {
-  // A quarter of the air that matters, 20 km on Earth; and the sun must stand above the horizon
-  // that the highest fifth of it sees, 3 degrees. Measured: tests/image/sky_light_test.cpp.
+void chooseSkyTable(const SkyLightConstants& sky, double planetRadius, const PlanetFrame& eye,
+                    Plan& plan) {
+  // A quarter of the air that matters, 20 km on Earth, while the sun stands above the horizon that
+  // the highest fifth of it sees, 3 degrees. Lower suns draw the planet's shadow into the sky,
+  // whose edge is the sharper the higher the eye: from 12 km the nodes miss it by up to 30 %, from
+  // the ground by 9 % in a few directions. Measured: tests/image/sky_light_test.cpp.
   const double HIGHEST = 0.25 * sky.top;
+  const double HIGHEST_IN_TWILIGHT = 0.02 * sky.top;
   const double LOWEST_SUN = std::sqrt(0.2 * sky.top / planetRadius);
-  bool high = true;
+  bool twilight = false;
   for (uint32_t i = 0; i < plan.lights.count; ++i) {
-    high = high && glm::dot(eye.up, plan.lights.light[i].toLight) > LOWEST_SUN;
+    twilight = twilight || glm::dot(eye.up, plan.lights.light[i].toLight) <= LOWEST_SUN;
   }
-  return plan.multiple && plan.air && !plan.fog && !plan.space && plan.lightReaches &&
-         eye.altitude < HIGHEST && high;
+  plan.space = plan.multiple && seenFromSpace(sky, eye.altitude);
+  plan.allLight = plan.multiple && plan.air && !plan.fog && !plan.space && plan.lightReaches &&
+                  eye.altitude < (twilight ? HIGHEST_IN_TWILIGHT : HIGHEST);
+  plan.skyZeniths = plan.allLight && twilight ? interface_::SKY_ZENITHS
+                                              : interface_::SKY_ABOVE + interface_::SKY_BELOW;
 }
 
 void fillFrame(const AirState& air, const SkyLightState& sky, const ViewState& view,
@@ -164,7 +171,7 @@ SkyTableKey skyTableKeyOf(const interface_::FrameUniforms& frame) {
   const std::array rows{frame.eye,         first.direction, first.irradiance, second.direction,
                         second.irradiance, frame.air,       frame.fog,        frame.fogAlbedo,
                         frame.skyLight,    frame.skyView,   frame.eyeFog,     frame.fogFirst,
-                        frame.absorber};
+                        frame.fogSecond,   frame.absorber};
   SkyTableKey key;
   static_assert(sizeof key == sizeof rows);
   std::memcpy(key.data(), rows.data(), sizeof key);

@@ -50,10 +50,10 @@ void fillFrame(const AirState& air, const SkyLightState& sky, const ViewState& v
                interface_::FrameUniforms& out);
 // Whether the eye is so high that its table is too coarse for the edge of night below.
 bool seenFromSpace(const SkyLightConstants& sky, double altitude);
-// Whether a table of all light is as exact as evaluating every pixel: clear air without edges of
-// night in it.
-bool tableHoldsAllLight(const Plan& plan, const SkyLightConstants& sky, double planetRadius,
-                        const PlanetFrame& eye);
+// Sets space, allLight, where a table of all light is about as exact as evaluating every pixel, and
+// skyZeniths of the plan.
+void chooseSkyTable(const SkyLightConstants& sky, double planetRadius, const PlanetFrame& eye,
+                    Plan& plan);
 // The numbers a sky table depends on.
 SkyTableKey skyTableKeyOf(const interface_::FrameUniforms& frame);
 void fillVolume(const VolumeState& volume, const PlannedVolume& planned, const glm::dvec3& eye,

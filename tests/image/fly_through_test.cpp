@@ -99,6 +99,22 @@ TEST_F(FlyThrough, FromTheGroundToSpaceNothingJumps) {
   }
 }
 
+// Where the table ceases to hold all light while a light is low.
+TEST_F(FlyThrough, InTwilightNothingJumps) {
+  scene.setSky();
+  for (const double sun_deg : {2.0, -2.0, -4.0}) {
+    scene.setSun(sun_deg, 40);
+    for (const double pitch_deg : {35.0, -60.0}) {
+      std::vector<Frame> frames;
+      for (int i = 0; i <= 100; ++i) {
+        scene.setCamera({0, 1200 + 8.0 * i, 0}, 0, pitch_deg);
+        frames.push_back(frameOf(scene.render()));
+      }
+      expectSmooth(frames, 1e-7);
+    }
+  }
+}
+
 TEST_F(FlyThrough, FromDayIntoNightNothingJumps) {
   scene.setSky();
   for (const double altitude : {2.0, 9000.0}) {

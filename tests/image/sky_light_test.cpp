@@ -56,6 +56,16 @@ class SkyLightPicture : public ::testing::Test {
     return ray;
   }
 
+  // Of a ray that meets it. m.
+  static double toTheGround(const WlkRay& ray) {
+    constexpr double RADIUS = 6.371e6;
+    const double x = ray.origin[0];
+    const double y = RADIUS + ray.origin[1];
+    const double z = ray.origin[2];
+    const double along = -(x * ray.direction[0] + y * ray.direction[1] + z * ray.direction[2]);
+    return along - std::sqrt(along * along - (x * x + y * y + z * z - RADIUS * RADIUS));
+  }
+
   // The query counts light of the ground that fog turns a little as the fog's, the picture as the
   // ground's.
   void setBlackGround() const {
@@ -65,14 +75,26 @@ class SkyLightPicture : public ::testing::Test {
   }
 
   // Relative differences of all pixels and colours, in rising order; dark ones are left out.
-  std::vector<double> differences() {
-    const Image picture = scene.render();
+  // surface: where the rays end, in parts of their way to sea level.
+  std::vector<double> differences(double surface = INFINITY) {
     std::vector<WlkRay> rays;
-    for (uint32_t y = 0; y < picture.height; ++y) {
-      for (uint32_t x = 0; x < picture.width; ++x) {
-        rays.push_back(rayOf(x, y));
+    std::vector<float> depth;
+    const auto camera = make<WlkCamera>();
+    for (uint32_t y = 0; y < scene.options().height; ++y) {
+      for (uint32_t x = 0; x < scene.options().width; ++x) {
+        WlkRay ray = rayOf(x, y);
+        ray.length = std::isinf(surface) ? surface : surface * toTheGround(ray);
+        const double ahead = std::sin(pitch_) * ray.direction[1] +
+                             std::cos(pitch_) * (std::sin(yaw_) * ray.direction[0] -
+                                                 std::cos(yaw_) * ray.direction[2]);
+        depth.push_back(static_cast<float>(static_cast<double>(camera.clipFromView[14]) /
+                                           (ray.length * ahead)));
+        rays.push_back(ray);
       }
     }
+    auto targets = make<WlkHeadlessTargets>();
+    targets.depth = depth.data();
+    const Image picture = scene.render(std::isinf(surface) ? nullptr : &targets);
     auto batch = make<WlkRayBatch>();
     batch.count = static_cast<uint32_t>(rays.size());
     batch.rays = rays.data();
@@ -360,6 +382,26 @@ TEST_F(SkyLightPicture, InTwilightFollowsTheQuery) {
   scene.setSky();
   for (const Station& from : {Station{2, 20}, {12000, 0}}) {
     expectWithin(from, {-2, -4, -6}, 0.02, 0.1);
+  }
+}
+
+// Surfaces above and below sea level end rays with light of all orders from the table.
+TEST_F(SkyLightPicture, OfSurfacesInTwilightFollowsTheQuery) {
+  scene.setSky();
+  for (const double sun_deg : {6.0, 1.0, -2.0}) {
+    scene.setSun(sun_deg, 25);
+    for (const double surface : {0.3, 0.9, 1.0, 1.1}) {
+      look({1000, -40}, 110);
+      const std::vector<double> all = differences(surface);
+      ASSERT_FALSE(all.empty());
+      const double p95 = all[static_cast<size_t>(0.95 * static_cast<double>(all.size() - 1))];
+      std::printf("sun %4.1f, surfaces at %.1f: p95 %.3f %%, worst %.3f %%\n", sun_deg, surface,
+                  100 * p95, 100 * all.back());
+      // The query ends at sea level; a tenth more way adds as much light, and 1 % for denser air.
+      const double beyond = surface > 1 ? 1.1 * (surface - 1) : 0.0;
+      EXPECT_NEAR(p95, beyond, 0.02);
+      EXPECT_LE(all.back(), beyond + 0.1);
+    }
   }
 }
 
