@@ -31,6 +31,12 @@ int firstAt(int term, int cell) {
   return total() * (6 + TRANSPORT_TERMS) + volume.size[0].w * term + cell;
 }
 
+// What the level below the finest found by itself: terms as above, then those of its source.
+int coarseAt(int term, int cell) {
+  return total() * (6 + TRANSPORT_TERMS) + volume.size[0].w * (2 * FIRST_TERMS) +
+         volume.size[1].w * term + cell;
+}
+
 // Lists of `work`. Over all levels: what drives the source, the change of the source; of the level
 // in turn: source and radiance in each direction.
 int driveAt(int level, int term, int cell) {
@@ -43,7 +49,7 @@ int directedAt(int level, int direction, int cell) {
   return total() * (2 * TRANSPORT_TERMS) + volume.size[level].w * direction + cell;
 }
 int radianceAt(int level, int direction, int ray) {
-  return total() * (2 * TRANSPORT_TERMS) + volume.size[0].w * TRANSPORT_DIRECTIONS +
+  return total() * (2 * TRANSPORT_TERMS) + volume.size[0].w * volume.place[0].y +
          volume.size[level].w * direction + ray;
 }
 

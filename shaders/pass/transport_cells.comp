@@ -72,6 +72,8 @@ void coarser(int level, int cell) {
   ivec3 corner = 2 * cellOf(volume.size[level].xyz, cell);
   ivec3 stride = strideOf(size);
   float beta = 0.0f;
+  float lit = 0.0f;
+  float light = 0.0f;
   vec4 moments = vec4(0.0f);
   vec4 plain = vec4(0.0f);
   for (int part = 0; part < 8; ++part) {
@@ -79,11 +81,15 @@ void coarser(int level, int cell) {
     int index = fine.x * stride.x + fine.y * stride.y + fine.z * stride.z;
     float here = kept[extinctionAt(level - 1, index)];
     vec4 own = momentsOf(level - 1, index);
+    float first = kept[lightAt(level - 1, index)];
     beta += here;
+    lit += here * first;
+    light += first;
     moments += here * own;
     plain += own;
   }
   kept[extinctionAt(level, cell)] = 0.125f * beta;
+  kept[lightAt(level, cell)] = beta > 1.0e-12f ? lit / beta : 0.125f * light;
   storeMoments(level, cell, beta > 1.0e-12f ? moments / beta : 0.125f * plain);
 }
 

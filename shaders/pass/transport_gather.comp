@@ -26,6 +26,7 @@ void main() {
   for (int term = 0; term < TRANSPORT_TERMS; ++term) {
     sum[term] = 0.0f;
   }
+  int directions = volume.place[level].y;
   int direction = 0;
   do {
     TransportDirection d = directionAt(level, direction);
@@ -43,7 +44,7 @@ void main() {
       sum[row * 4 + 3] += y.w * radiance;
     }
     direction += 1;
-  } while (direction < TRANSPORT_DIRECTIONS);
+  } while (direction < directions);
 
   vec4 moments = vec4(kept[momentAt(level, 0, cell)], kept[momentAt(level, 1, cell)],
                       kept[momentAt(level, 2, cell)], kept[momentAt(level, 3, cell)]);

@@ -12,6 +12,7 @@ void main() {
   if (cell >= volume.size[level].w) {
     return;
   }
+  int directions = volume.place[level].y;
   if ((push.flags & TRANSPORT_SECOND_SWEEP) != 0u) {
     vec4 a = vec4(kept[firstAt(0, cell)], kept[firstAt(1, cell)], kept[firstAt(2, cell)],
                   kept[firstAt(3, cell)]);
@@ -25,7 +26,7 @@ void main() {
                   c * volume.directed[of * 3 + 2].x;
       work[directedAt(level, of, cell)] = max(scattered * sum, 0.0f);
       of += 1;
-    } while (of < TRANSPORT_DIRECTIONS);
+    } while (of < directions);
     return;
   }
   bool corrected = (push.flags & TRANSPORT_COARSER) != 0u;
@@ -63,5 +64,5 @@ void main() {
     }
     work[directedAt(level, direction, cell)] = sum;
     direction += 1;
-  } while (direction < TRANSPORT_DIRECTIONS);
+  } while (direction < directions);
 }

@@ -1,19 +1,28 @@
 // SPDX-License-Identifier: MIT
-// Radiance along every ray of every direction, from the source in the cells: exact for sources that
-// are linear in optical depth from slice to slice. Constant radiance stays constant.
+// Radiance that passes each slab of cells along every ray of every direction, as its mean over the
+// slab's optical depth: what is absorbed there is what comes in and is emitted less what goes out,
+// so that rays neither make nor lose light. Sources are linear in a slab's optical depth. Constant
+// radiance stays constant.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "transport.glsl"
 
 layout(local_size_x = 64) in;
 
-// (1 - e^-t) / t and the rest of the weight: of the source behind and of the one here.
-vec2 sourceWeights(float t, float e) {
+// (1 - e^-t) / t, and what a source that grows by 1 along the slab adds to the radiance that leaves:
+// (1 + e^-t) / 2 less the former.
+vec2 slabWeights(float t, float e) {
   float mean = t > 1.0e-2f ? (1.0f - e) / t : 1.0f - t * (0.5f - t * (1.0f / 6.0f));
-  float here = t > 1.0e-2f ? 1.0f - mean : t * (0.5f - t * (1.0f / 6.0f));
-  float behind = t > 1.0e-2f ? mean - e : t * (0.5f - t * (1.0f / 3.0f));
-  return vec2(behind, here);
+  float slope = t > 0.1f ? 0.5f * (1.0f + e) - mean
+                         : t * t * (1.0f / 12.0f - t * (1.0f / 24.0f - t * (1.0f / 80.0f)));
+  return vec2(mean, slope);
 }
+
+// Of the ray in one slice of cells: source (radiance), extinction (1/m).
+struct Slice {
+  float source;
+  float beta;
+};
 
 void main() {
   int level = int(push.level);
@@ -31,45 +40,66 @@ void main() {
   ivec2 start = ivec2(ray % count.x, ray / count.x);
   int slices = size[d.axes.x];
   float radiance = 0.0f;
-  float sourceBehind = 0.0f;
-  float betaBehind = 0.0f;
+  // The slab of a slice ends half-way to the next one, or where the ray leaves the grid; its source
+  // changes as between its neighbours. So it is done when the next slice is known.
+  Slice before = Slice(0.0f, 0.0f);
+  Slice here = before;
+  float begun = 0.0f;  // share of a slice's path, inside the slab before its slice
   int k = 0;
   do {
-    RayStep s = rayStep(d, count, start, k);
-    int base = (d.axes.w > 0 ? k : slices - 1 - k) * stride[d.axes.x];
-    vec2 whole = floor(s.at);
-    vec2 f = s.at - whole;
-    ivec2 a = max(ivec2(whole), ivec2(0));
-    ivec2 b = min(ivec2(whole) + 1, count - 1);
-    ivec4 cells = base + ivec4(a.x * across.x + a.y * across.y, b.x * across.x + a.y * across.y,
-                               a.x * across.x + b.y * across.y, b.x * across.x + b.y * across.y);
-    vec4 w = vec4((1.0f - f.x) * (1.0f - f.y), f.x * (1.0f - f.y), (1.0f - f.x) * f.y, f.x * f.y);
-    vec4 betas = vec4(kept[extinctionAt(level, cells.x)], kept[extinctionAt(level, cells.y)],
-                      kept[extinctionAt(level, cells.z)], kept[extinctionAt(level, cells.w)]);
-    float beta = dot(w, betas);
-    vec4 around;
-    if (first) {
-      around = vec4(kept[lightAt(level, cells.x)], kept[lightAt(level, cells.y)],
-                    kept[lightAt(level, cells.z)], kept[lightAt(level, cells.w)]);
-    } else {
-      around = vec4(work[directedAt(level, direction, cells.x)],
-                    work[directedAt(level, direction, cells.y)],
-                    work[directedAt(level, direction, cells.z)],
-                    work[directedAt(level, direction, cells.w)]);
+    Slice next = here;
+    RayStep s = RayStep(vec2(0.0f), 0.5f, true);
+    if (k < slices) {
+      s = rayStep(d, count, start, k);
+      int base = (d.axes.w > 0 ? k : slices - 1 - k) * stride[d.axes.x];
+      vec2 whole = floor(s.at);
+      vec2 f = s.at - whole;
+      ivec2 a = max(ivec2(whole), ivec2(0));
+      ivec2 b = min(ivec2(whole) + 1, count - 1);
+      ivec4 cells = base + ivec4(a.x * across.x + a.y * across.y, b.x * across.x + a.y * across.y,
+                                 a.x * across.x + b.y * across.y, b.x * across.x + b.y * across.y);
+      vec4 w = vec4((1.0f - f.x) * (1.0f - f.y), f.x * (1.0f - f.y), (1.0f - f.x) * f.y,
+                    f.x * f.y);
+      vec4 betas = vec4(kept[extinctionAt(level, cells.x)], kept[extinctionAt(level, cells.y)],
+                        kept[extinctionAt(level, cells.z)], kept[extinctionAt(level, cells.w)]);
+      vec4 around;
+      if (first) {
+        around = vec4(kept[lightAt(level, cells.x)], kept[lightAt(level, cells.y)],
+                      kept[lightAt(level, cells.z)], kept[lightAt(level, cells.w)]);
+      } else {
+        around = vec4(work[directedAt(level, direction, cells.x)],
+                      work[directedAt(level, direction, cells.y)],
+                      work[directedAt(level, direction, cells.z)],
+                      work[directedAt(level, direction, cells.w)]);
+      }
+      // What is emitted is interpolated, so that all of it is.
+      vec4 emits = w * (betas + 1.0e-12f);
+      next.beta = dot(w, betas);
+      next.source = dot(emits, around) / (emits.x + emits.y + emits.z + emits.w);
     }
-    float source = dot(w, around);
+    if (k > 0) {
+      Slice after = s.enters ? here : next;
+      float share = begun + (s.enters ? 1.0f - s.share : 0.5f);
+      float near = 2.0f * here.beta + before.beta + after.beta;
+      float slope = near > 0.0f ? 2.0f * here.beta * (after.source - before.source) / near : 0.0f;
+      slope = share * clamp(slope, -2.0f * abs(here.source), 2.0f * abs(here.source));
+      float t = here.beta * share * d.step_.z;
+      float e = exp(-min(t, 80.0f));
+      vec2 weights = slabWeights(t, e);
+      float leaves = radiance * e + here.source * (1.0f - e) + slope * weights.y;
+      float mean = radiance * weights.x + here.source * (1.0f - weights.x) -
+                   slope * (t > 0.0f ? weights.y / t : 0.0f);
+      work[radianceAt(level, direction, (k - 1) * count.x * count.y + ray)] = mean;
+      radiance = leaves;
+    }
+    before = here;
+    here = next;
+    begun = 0.5f;
     if (s.enters) {
       radiance = 0.0f;
-      sourceBehind = source;
-      betaBehind = beta;
+      before = here;
+      begun = s.share;
     }
-    float t = 0.5f * (betaBehind + beta) * s.share * d.step_.z;
-    float e = exp(-min(t, 80.0f));
-    vec2 weights = sourceWeights(t, e);
-    radiance = radiance * e + sourceBehind * weights.x + source * weights.y;
-    sourceBehind = source;
-    betaBehind = beta;
-    work[radianceAt(level, direction, k * count.x * count.y + ray)] = radiance;
     k += 1;
-  } while (k < slices);
+  } while (k <= slices);
 }

@@ -28,6 +28,8 @@ struct TransportSizes {
   VkDeviceSize keptBytes = 0;  // of each volume
 };
 TransportSizes transportSizes(const std::array<uint32_t, 3>& cells);
+// In which light travels there.
+uint32_t transportDirections(uint32_t level, const std::array<uint32_t, 3>& cells);
 
 // Numbers of a volume's media: what transport takes for the peak, and the rest's moments.
 struct TransportMedia {

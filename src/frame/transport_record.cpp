@@ -15,7 +15,7 @@ using interface_::TransportUniforms;
 // Rounds over the finest level, the one below it in each of those, and over the coarsest. Where
 // light is scattered some hundred times, a double prototype with one level less had 0.5 % of the
 // source left.
-constexpr uint32_t ROUNDS = 5;
+constexpr uint32_t ROUNDS = 8;
 constexpr uint32_t MIDDLE_ROUNDS = 2;
 constexpr uint32_t COARSE_ROUNDS = 10;
 constexpr uint32_t GROUP = 64;
@@ -36,13 +36,10 @@ class TransportRecorder {
     for (uint32_t level = 0; level < interface_::TRANSPORT_LEVELS; ++level) {
       dispatch(vk::Pass::TransportCells, level, 0, sizes_.cells[level], 1);
     }
-    sweep(0, interface_::TRANSPORT_FIRST_SWEEP);
-    dispatch(vk::Pass::TransportSource, 0, interface_::TRANSPORT_SECOND_SWEEP, sizes_.cells[0], 1);
-    sweep(0, interface_::TRANSPORT_SECOND_SWEEP);
-    dispatch(vk::Pass::TransportSource, 0, 0, sizes_.cells[0], 1);
-    for (uint32_t round = 0; round < ROUNDS; ++round) {
-      cycle(0);
-    }
+    solve(1, 0);
+    dispatch(vk::Pass::TransportExtrapolate, 1, 0, sizes_.cells[1], 1);
+    solve(0, interface_::TRANSPORT_COARSER);
+    dispatch(vk::Pass::TransportExtrapolate, 0, 0, sizes_.cells[0], 1);
     result.computed = true;
   }
 
@@ -51,6 +48,18 @@ class TransportRecorder {
   TransportCommands result;
 
  private:
+  // Light of a level by itself, from what the coarser one has found or from none.
+  void solve(uint32_t level, uint32_t from) {
+    sweep(level, interface_::TRANSPORT_FIRST_SWEEP);
+    dispatch(vk::Pass::TransportSource, level, interface_::TRANSPORT_SECOND_SWEEP,
+             sizes_.cells[level], 1);
+    sweep(level, interface_::TRANSPORT_SECOND_SWEEP);
+    dispatch(vk::Pass::TransportSource, level, from, sizes_.cells[level], 1);
+    for (uint32_t round = 0; round < ROUNDS; ++round) {
+      cycle(level);
+    }
+  }
+
   // At most, of a direction.
   uint32_t rays(uint32_t level) const {
     const uint32_t x = cells_[0] >> level;
@@ -60,7 +69,8 @@ class TransportRecorder {
   }
 
   void sweep(uint32_t level, uint32_t flags) {
-    dispatch(vk::Pass::TransportSweep, level, flags, rays(level), interface_::TRANSPORT_DIRECTIONS);
+    dispatch(vk::Pass::TransportSweep, level, flags, rays(level),
+             transportDirections(level, cells_));
     dispatch(vk::Pass::TransportGather, level, flags, sizes_.cells[level], 1);
   }
 

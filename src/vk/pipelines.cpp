@@ -12,6 +12,7 @@
 #include "transport_cells_comp_spv.h"
 #include "transport_depth_comp_spv.h"
 #include "transport_gather_comp_spv.h"
+#include "transport_extrapolate_comp_spv.h"
 #include "transport_restrict_comp_spv.h"
 #include "transport_source_comp_spv.h"
 #include "transport_sweep_comp_spv.h"
@@ -204,6 +205,8 @@ Pipelines::Compute Pipelines::computeOf(Pass pass) const {
       return {transport_sweep_comp_spv, transportLayout_};
     case Pass::TransportGather:
       return {transport_gather_comp_spv, transportLayout_};
+    case Pass::TransportExtrapolate:
+      return {transport_extrapolate_comp_spv, transportLayout_};
     case Pass::TransportRestrict:
       return {transport_restrict_comp_spv, transportLayout_};
     case Pass::TransportSource:

@@ -22,6 +22,7 @@ enum class Pass : uint32_t {
   TransportCells,
   TransportSweep,
   TransportGather,
+  TransportExtrapolate,
   TransportRestrict,
   TransportSource,
   TransportView

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Light of the two finest levels, each solved by itself, extrapolated to cells of no size: the error
+// of a level goes with the edge of its cells (docs/models.md). On level 1: keeps what it found.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "transport.glsl"
+
+layout(local_size_x = 64) in;
+
+const int TERMS = 2 * FIRST_TERMS + TRANSPORT_TERMS;
+// The step beyond the finest level, in steps from the coarser to it; at most this part of the light.
+const float STEP = 1.0f;
+const float MOST = 0.9f;
+
+int termAt(int term, int level, int cell) {
+  return term < 2 * FIRST_TERMS ? firstAt(term, cell)
+                                : sourceAt(level, term - 2 * FIRST_TERMS, cell);
+}
+
+void main() {
+  int level = int(push.level);
+  int cell = int(gl_GlobalInvocationID.x);
+  if (cell >= volume.size[level].w) {
+    return;
+  }
+  if (level > 0) {
+    for (int term = 0; term < TERMS; ++term) {
+      kept[coarseAt(term, cell)] = kept[termAt(term, level, cell)];
+    }
+    return;
+  }
+  ivec3 coarse = volume.size[1].xyz;
+  ivec3 stride = strideOf(coarse);
+  vec3 at = 0.5f * (vec3(cellOf(volume.size[0].xyz, cell)) + 0.5f) - 0.5f;
+  vec3 f = at - floor(at);
+  ivec3 low = max(ivec3(floor(at)), ivec3(0));
+  ivec3 high = min(ivec3(floor(at)) + 1, coarse - 1);
+  float part = 0.0f;
+  for (int term = 0; term < TERMS; ++term) {
+    float sum = 0.0f;
+    for (int corner = 0; corner < 8; ++corner) {
+      ivec3 side = ivec3(corner & 1, (corner >> 1) & 1, corner >> 2);
+      ivec3 c = low + side * (high - low);
+      vec3 w = mix(1.0f - f, f, vec3(side));
+      int index = c.x * stride.x + c.y * stride.y + c.z * stride.z;
+      sum += w.x * w.y * w.z * kept[coarseAt(term, index)];
+    }
+    int own = termAt(term, 0, cell);
+    float change = STEP * (kept[own] - sum);
+    if (term == 0 || term == FIRST_TERMS || term == 2 * FIRST_TERMS) {
+      // Means over all directions, which bound the rest.
+      float most = MOST * max(kept[own], 0.0f);
+      part = abs(change) > most ? most / abs(change) : 1.0f;
+    }
+    kept[own] += part * change;
+  }
+}
