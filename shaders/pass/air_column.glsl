@@ -12,28 +12,6 @@ float skyTableReach(float ground, bool allLight) {
   return ground >= 0.0f ? max(ground, shortest) : INFINITE_DISTANCE;
 }
 
-// The opacity in green that the table's shares count by, of what scatters: light is in proportion
-// to that, while ozone would be most of the opacity where there is hardly any. Of columns to
-// infinity, whose last decimals do not matter here.
-float skyTableOpacity(Air air, AirPath path, AirPoint first, AirPoint lowest, AirPoint last) {
-  bool bends = path.lowest > 0.0f && path.lowest < path.reach;
-  vec3 a = vec3(0.0f);
-  vec3 b = vec3(0.0f);
-  vec3 low = vec3(0.0f);
-  if (AIR_ENABLED) {
-    a.x = first.air.column;
-    b.x = last.air.column;
-    low.x = lowest.air.column;
-  }
-  if (FOG_ENABLED) {
-    a.y = first.fog.column;
-    b.y = last.fog.column;
-    low.y = lowest.fog.column;
-  }
-  vec3 columns = bends ? 2.0f * low - a - b : abs(a - b);
-  return oneMinusExp(scatteringDepth(air, max(columns, vec3(0.0f))).y);
-}
-
 // first: the ray's origin; lowest: its point nearest the planet's centre within its reach.
 vec3 columnsTo(Air air, AirPath path, AirPoint first, AirPoint lowest, AirPoint there) {
   bool past = there.distance > lowest.distance && lowest.distance > 0.0f;

@@ -59,53 +59,9 @@ vec3 multipleLight(Air air, AirRay ray, int which, float reach, vec3 columns, ve
   return light;
 }
 
-// Radiance and transmittance of clear air over `reach`.
-PixelLayer clearAir(Air air, AirRay ray, vec3 direction, float reach, float ground) {
-  AirPath path = clipToAir(air, ray, skyTableReach(ground, true));
-  float own = clipToAir(air, ray, reach).reach;
-  AirPoint first = airPoint(air, path, 0.0f);
-  // lavapipe runs both sides of a branch but leaves loops: few rays need more than one point here.
-  bool bends = path.lowest > 0.0f && path.lowest < max(path.reach, own);
-  bool open = own >= path.reach;
-  AirPoint there = first;
-  AirPoint last = first;
-  AirPoint lowest = first;
-  int point = 0;
-  float t = own;
-  for (;;) {
-    AirPoint next = airPoint(air, path, t);
-    if (point == 0) {
-      there = next;
-    } else if (point == 1) {
-      last = next;
-    } else {
-      lowest = next;
-    }
-    bool toLast = point == 0 && !open;
-    if (!toLast && (!bends || point == 2)) {
-      break;
-    }
-    point = toLast ? 1 : 2;
-    t = toLast ? path.reach : path.lowest;
-  }
-  vec3 columns = columnsTo(air, path, first, lowest, there);
-  vec3 opacity = opacityOf(scatteringDepth(air, columns));
-  float total = skyTableOpacity(air, path, first, lowest, last);
-  float share = open ? 1.0f : opacity.y / max(total, 1.0e-30f);
-  PixelLayer layer;
-  layer.radiance = vec3(0.0f);
-  for (int i = 0; i < int(LIGHT_COUNT); ++i) {
-    LightUniforms light = frame.lights[i];
-    AirRay lit = airRayOf(frame, light, direction);
-    vec3 source = skyTableSource(skyTableDirection(lit, i), share, lit.viewSun);
-    layer.radiance += source * light.irradiance.xyz;
-  }
-  layer.radiance *= opacity;
-  layer.transmittance = exp(-depthOfColumns(air, columns));
-  return layer;
-}
+#include "clear_air.glsl"
 
-// The same with fog, in twilight or from space: every pixel integrates its own first order.
+// With fog, in twilight from higher up or from space: every pixel integrates its own first order.
 PixelLayer layeredAir(Air air, vec3 direction, float reach, bool ends) {
   PixelLayer layer;
   layer.radiance = vec3(0.0f);

@@ -72,5 +72,15 @@ void main() {
   rest += 1.3228757f * z * (5.0f * z * z - 3.0f) * kept[sourceAt(0, 12, cell)];
 
   vec3 source = max(first + vec3(rest), vec3(0.0f)) * 0.0795774715f;
-  imageStore(viewSource, place, vec4(source, kept[extinctionAt(0, cell)]));
+  // Filters read the cell after the last one, too, with weight 0 or nearly so: what stands there
+  // may be of another volume or no number.
+  ivec3 more = min(ivec3(equal(place + 1, size)), imageSize(viewSource) - size);
+  for (int k = 0; k <= more.z; ++k) {
+    for (int j = 0; j <= more.y; ++j) {
+      for (int i = 0; i <= more.x; ++i) {
+        imageStore(viewSource, place + ivec3(i, j, k),
+                   vec4(source, kept[extinctionAt(0, cell)]));
+      }
+    }
+  }
 }

@@ -42,6 +42,7 @@ struct Options {
   uint32_t rounds = 9;
   bool validation = false;
   bool singlePrecision = false;
+  std::vector<std::string> methods;
 };
 
 LutScene lutScene(const SkyCase& one, const Options& options) {
@@ -168,17 +169,26 @@ class Study {
     targets_.push_back(targets);
     LutSky* published = addLut(targets, SAMPLE_PUBLISHED, "lut");
     // The same tables, two of which the frames before left.
-    addMethod(
-        "lut-kept", Orders::ALL,
-        [published](VkCommandBuffer c) { published->record(c, LutSky::SKY_VIEW); },
-        [published] { return published->counts(); });
-    addLut(targets, SAMPLE_BETTER, "lut-midpoint");
+    if (wanted("lut-kept")) {
+      addMethod(
+          "lut-kept", Orders::ALL,
+          [published](VkCommandBuffer c) { published->record(c, LutSky::SKY_VIEW); },
+          [published] { return published->counts(); });
+    }
+    if (wanted("lut-midpoint")) {
+      addLut(targets, SAMPLE_BETTER, "lut-midpoint");
+    }
     addWelkin(targets, WLK_SCATTERING_DEFAULT, true, "welkin");
     addWelkin(targets, WLK_SCATTERING_DEFAULT, false, "welkin-kept");
     addWelkin(targets, WLK_SCATTERING_SINGLE, false, "welkin-single");
     addForm(targets, SkyForm::NONE, Orders::NONE, "none");
     addForm(targets, SkyForm::FLAT, Orders::ONE, "flat");
     addForm(targets, SkyForm::SEGMENTS, Orders::ONE, "segments");
+  }
+
+  bool wanted(const char* name) const {
+    const std::vector<std::string>& names = options_.methods;
+    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
   }
 
   LutSky* addLut(const GpuTargets& targets, float sampleAt, const char* name) {
@@ -193,6 +203,9 @@ class Study {
   }
 
   void addWelkin(const GpuTargets& targets, uint32_t scattering, bool moving, const char* name) {
+    if (!wanted(name)) {
+      return;
+    }
     welkins_.push_back(std::make_unique<WelkinSky>(gpu_, targets, one_, scattering, moving));
     WelkinSky* sky = welkins_.back().get();
     addMethod(
@@ -201,6 +214,9 @@ class Study {
   }
 
   void addForm(const GpuTargets& targets, SkyForm::Kind kind, Orders orders, const char* name) {
+    if (!wanted(name)) {
+      return;
+    }
     forms_.push_back(std::make_unique<SkyForm>(gpu_, targets, kind));
     SkyForm* form = forms_.back().get();
     form->setScene(lutScene(one_, options_));
@@ -367,6 +383,7 @@ int main(int argc, char** argv) {
   app.add_option("out", options.out, "JSON file to write")->required();
   app.add_option("--commit", options.commit, "what the report says was built");
   app.add_option("--case", options.only, "the only one to run");
+  app.add_option("--method", options.methods, "the only ones beside lut");
   app.add_option("--truth", options.truth, "CSV file with the true radiance; else it is made anew");
   app.add_option("--new-truth", options.newTruth, "append to such a file, measure nothing");
   app.add_option("--width", options.width)->check(CLI::Range(8, 16384));
