@@ -142,10 +142,10 @@ WlkQuality checkedQuality(const WlkQuality* quality) {
   checkRange(q.sType, "lowestLevel", q.lowestLevel, WLK_QUALITY_LOW, q.level);
   const bool timed = q.control == WLK_CONTROL_TIME || q.control == WLK_CONTROL_REPORTED_TIME;
   const bool byError = q.control == WLK_CONTROL_ERROR;
-  checkRange(q.sType, "timeBudget_ms", static_cast<double>(q.timeBudget_ms), timed ? 0.01 : 0,
-             timed ? 1000 : 0);
-  checkRange(q.sType, "errorTarget", static_cast<double>(q.errorTarget), byError ? 1e-4 : 0,
-             byError ? 1 : 0);
+  checkRange(q.sType, "timeBudget_ms", static_cast<double>(q.timeBudget_ms),
+             timed ? static_cast<double>(0.01f) : 0, timed ? 1000 : 0);
+  checkRange(q.sType, "errorTarget", static_cast<double>(q.errorTarget),
+             byError ? static_cast<double>(1e-4f) : 0, byError ? 1 : 0);
   if (governed(q)) {
     checkRange(q.sType, "sliceCount", q.sliceCount, 0, 0);
     checkRange(q.sType, "batchSize", q.batchSize, 0, 0);

@@ -11,7 +11,7 @@ constexpr uint32_t SKIP = 2;    // frames after a switch, which may hold work do
 constexpr uint32_t ENOUGH = 8;  // times before a rung is judged
 constexpr double SMOOTH = 0.125;
 constexpr double STEEPEST = 1.6;      // ratio of two rungs that a search reckons with at least
-constexpr uint32_t RETRY = 600;       // frames after which a learned ratio is doubted
+constexpr uint32_t RETRY = 1800;      // frames after which a learned ratio is doubted
 constexpr uint32_t PATIENCE = 16;     // factor by which both waits may grow
 constexpr uint32_t TAKEN_BACK = 240;  // frames within which a step down takes back one up
 constexpr double CALM = 0.8;  // of the error target, below which a cheaper rung is looked for
@@ -228,9 +228,8 @@ bool Governor::feedErrors(uint64_t frame, std::span<const double, RUNGS> errors,
     calmSince_ = frame;
   }
   state_.error = errors[next];
-  state_.reason = !(errors[next] <= target) ? WLK_CONTROL_REASON_UNREACHABLE
-                  : next == range_.lowest   ? WLK_CONTROL_REASON_BEST
-                                            : WLK_CONTROL_REASON_FITS;
+  state_.reason = errors[next] <= target ? uint32_t{WLK_CONTROL_REASON_FITS}
+                                         : uint32_t{WLK_CONTROL_REASON_UNREACHABLE};
   return next != before;
 }
 

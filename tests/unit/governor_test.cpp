@@ -154,14 +154,14 @@ TEST(Governor, ALoadBetweenTwoRungsIsNotHunted) {
     for (int i = 0; i < 10000; ++i) {
       run.frame(cost);
     }
-    // A step up that was taken back is tried again after ten seconds, then after twice that, and
-    // so on: in 10000 frames four times at most, beside the first search.
-    EXPECT_LE(run.switches.size(), 16u) << above;
+    // A step up that was taken back is tried again after half a minute, then after twice that, and
+    // so on: twice in 10000 frames, beside the search and the first climb.
+    EXPECT_LE(run.switches.size(), 3u) << above;
     size_t late = 0;
     for (const uint64_t frame : run.switches) {
       late += frame > 5000 ? 1 : 0;
     }
-    EXPECT_LE(late, 2u) << above;
+    EXPECT_LE(late, 0u) << above;
   }
 }
 
@@ -174,7 +174,7 @@ TEST(Governor, FollowsStepsInTheLoad) {
     const uint32_t before = run.governor.state().rung;
     run.frames(SEARCH, heavy);
     EXPECT_LE(heavy.at(run.governor.state().rung), BUDGET) << factor;
-    EXPECT_LT(run.governor.state().rung, before);
+    EXPECT_EQ(run.governor.state().rung<before, heavy.at(before)> BUDGET);
     // Back up: a rung per second, or more slowly where it doubted itself.
     run.frames(20000, calm);
     EXPECT_GE(run.governor.state().rung + 1, before) << factor;
@@ -183,7 +183,7 @@ TEST(Governor, FollowsStepsInTheLoad) {
 
 TEST(Governor, NoLoadMakesItSwitchOftenerThanStated) {
   std::mt19937 random(3);
-  for (const uint64_t period : {5, 11, 20, 37, 64, 150, 600}) {
+  for (const uint64_t period : {5U, 11U, 20U, 37U, 64U, 150U, 600U}) {
     for (int kind = 0; kind < 3; ++kind) {
       Noise noise(0.3);
       Simulation run;
@@ -212,7 +212,7 @@ TEST(Governor, NoLoadMakesItSwitchOftenerThanStated) {
       EXPECT_LE(ups, 12000 / GOVERNOR_UP_FRAMES);
       // Of a load that comes and goes for ever, waits that double leave few steps up.
       if (kind == 0 && period < GOVERNOR_UP_FRAMES) {
-        EXPECT_LE(ups, 30u) << period;
+        EXPECT_LE(ups, 3u) << period;
       }
     }
   }
