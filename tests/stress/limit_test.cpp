@@ -2,6 +2,8 @@
 // Sizes, counts, enumerations and flags outside their ranges; states that do not fit the call.
 #include <welkin/welkin_vulkan.h>
 
+#include <cmath>
+
 #include "stress/abuse.hpp"
 
 namespace welkin::test {
