@@ -116,6 +116,19 @@ enum {
   WLK_QUALITY_NO_SKIP = 1u << 0
 };
 
+/** Who chooses between the lowest level and `level`. Controls other than LEVEL leave sliceCount,
+ *  batchSize and lightBufferSize 0. */
+enum {
+  /** Nobody: the numbers of `level` and of the fields that are not 0. */
+  WLK_CONTROL_LEVEL = 0,
+  /** The best that keeps timeBudget_ms by the view's own timestamps. */
+  WLK_CONTROL_TIME = 1,
+  /** The same by times that the engine reports: wlkReportFrameTime. */
+  WLK_CONTROL_REPORTED_TIME = 2,
+  /** The cheapest whose estimated error is at most errorTarget. */
+  WLK_CONTROL_ERROR = 3
+};
+
 /** Zero in a field means the level's choice. */
 typedef struct WlkQuality {
   uint32_t sType;
@@ -138,11 +151,87 @@ typedef struct WlkQuality {
   /** With WLK_SCATTERING_ALL_ORDERS: edge of a cube with as many cells as the grid of a volume has
    *  at most. 0 or [8, 128]. Default 0. */
   uint32_t volumeCells;
+  /** WLK_CONTROL_*. Default LEVEL. */
+  uint32_t control;
+  /** Of WLK_CONTROL_TIME and WLK_CONTROL_REPORTED_TIME: GPU time of this view's frame, ms.
+   *  [0.01, 1000] there, else 0. Default 0. */
+  float timeBudget_ms;
+  /** Of WLK_CONTROL_ERROR: relative error as wlkGetErrorEstimate has it. [1e-4, 1] there, else 0.
+   *  Default 0. */
+  float errorTarget;
+  /** WLK_QUALITY_* below which no control goes, at most `level`. Default LOW. */
+  uint32_t lowestLevel;
   uint32_t reserved0;
 } WlkQuality;
 
-/** Sets a view's quality. Needs wlkPrepare. [C] */
+/** Sets a view's quality. Needs wlkPrepare, unless only timeBudget_ms or errorTarget of a
+ *  controlled quality change. [C] MISSING_FEATURE: WLK_CONTROL_TIME on a queue without
+ *  timestamps. */
 WLK_API WlkResult wlkSetQuality(WlkContext context, WlkView view, const WlkQuality* quality);
+
+/** Why a controlled view stands where it does. */
+enum {
+  /** WLK_CONTROL_LEVEL. */
+  WLK_CONTROL_REASON_NONE = 0,
+  /** Too few frames of this rung are known. */
+  WLK_CONTROL_REASON_MEASURING = 1,
+  /** It keeps the budget, the next rung up would not; or it is the cheapest that keeps the error
+   *  target. */
+  WLK_CONTROL_REASON_FITS = 2,
+  /** It keeps the budget on the highest rung. */
+  WLK_CONTROL_REASON_BEST = 3,
+  /** The next rung up would keep the budget, too; it is taken if that stays so. */
+  WLK_CONTROL_REASON_RISING = 4,
+  /** The budget is exceeded; a lower rung is taken if that stays so. */
+  WLK_CONTROL_REASON_OVER = 5,
+  /** No rung keeps the budget or the error target: this is the lowest or the highest. */
+  WLK_CONTROL_REASON_UNREACHABLE = 6,
+  /** No volume is drawn: rungs would look and cost the same. */
+  WLK_CONTROL_REASON_IDLE = 7
+};
+
+/** Where a view's quality stands on the ladder of settings from the lowest level to its own. */
+typedef struct WlkQualityState {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** WLK_CONTROL_*. */
+  uint32_t control;
+  /** WLK_CONTROL_REASON_*. */
+  uint32_t reason;
+  /** Of the next frame; of all levels the ladder has the rungs 0, 3, 7 and 11. */
+  uint32_t rung;
+  uint32_t lowestRung;
+  uint32_t highestRung;
+  /** What the rung stands for, as in WlkQuality. */
+  uint32_t sliceCount;
+  uint32_t batchSize;
+  uint32_t lightBufferSize;
+  uint32_t volumeCells;
+  uint32_t reserved0;
+  /** Smoothed time of a frame on this rung, and what the next rung up would take; 0 if unknown. */
+  float time_ms;
+  float predictedTime_ms;
+  /** Estimated error of this rung (WLK_CONTROL_ERROR); 0 if unknown. */
+  float relativeError;
+  uint32_t reserved1;
+  /** First frame on this rung, and how often the rung has changed since wlkSetQuality. */
+  uint64_t sinceFrame;
+  uint64_t switches;
+} WlkQualityState;
+
+/** Tells what a view's quality is and why. [C] */
+WLK_API WlkResult wlkGetQualityState(WlkContext context, WlkView view, WlkQualityState* state);
+
+/** Reports what the GPU took for the view's part of a finished frame, ms, for
+ *  WLK_CONTROL_REPORTED_TIME. In the order of the frames; of some it may be missing. A frame that
+ * is not later than the last one reported changes nothing. [C] Errors: INVALID_ARGUMENT for times
+ *  outside (0, 1e6] and for frames that were not recorded yet, WRONG_STATE with another control. */
+WLK_API WlkResult wlkReportFrameTime(WlkContext context, WlkView view, uint64_t frameIndex,
+                                     double milliseconds);
+
+/** "WLK_CONTROL_REASON_FITS" and so on. [F] */
+WLK_API const char* wlkControlReasonName(uint32_t reason);
 
 /* ------------------------------------------------------------------------------------- frames */
 

@@ -61,6 +61,9 @@ inline constexpr WlkStructType structType(const WlkCamera&) {
 inline constexpr WlkStructType structType(const WlkQuality&) {
   return WLK_STRUCT_QUALITY;
 }
+inline constexpr WlkStructType structType(const WlkQualityState&) {
+  return WLK_STRUCT_QUALITY_STATE;
+}
 inline constexpr WlkStructType structType(const WlkHeadlessTargets&) {
   return WLK_STRUCT_HEADLESS_TARGETS;
 }

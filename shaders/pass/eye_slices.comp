@@ -155,7 +155,8 @@ void main() {
     }
     AirNodes nodes = airNodes(direction, span.begin, span.end);
 
-    float layers = float(slice.slabCount) + 1.0f;
+    // The buffer may have room for larger batches.
+    float layers = float(textureSize(lightBuffer, 0).z);
     float maxStep = volume.texelC.w;
     vec4 batch = vec4(0.0f, 0.0f, 0.0f, 1.0f);
     // Plane at the far side of the current slab, in ray order; the half step keeps rounding at a

@@ -119,7 +119,8 @@ WlkContext_T::WlkContext_T(const WlkContextInfo& contextInfo)
       pending(&memory),
       retired(&memory),
       imported(&memory),
-      recordVolumes(&memory) {
+      recordVolumes(&memory),
+      errorVolumes(&memory) {
   wlkInitStruct(WLK_STRUCT_PLANET, sizeof air.planet, &air.planet);
   const ContextChain chain = readChain(contextInfo.next);
   if (chain.headless != nullptr) {

@@ -11,6 +11,7 @@
 #include "api/error.hpp"
 #include "api/handle_pool.hpp"
 #include "api/validate.hpp"
+#include "frame/error_estimate.hpp"
 #include "frame/record.hpp"
 #include "frame/resources.hpp"
 #include "frame/scene.hpp"
@@ -99,6 +100,7 @@ struct WlkContext_T {
   std::pmr::vector<welkin::Retired> retired;
   std::pmr::vector<welkin::ImportedView> imported;
   std::pmr::vector<welkin::RecordVolume> recordVolumes;
+  std::pmr::vector<welkin::ErrorVolume> errorVolumes;  // of a view whose error is governed
   welkin::vk::Image dummy2d;
   welkin::vk::Image dummy3d;
 

@@ -201,6 +201,8 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
       return write(camera(), structSize, structure);
     case WLK_STRUCT_QUALITY:
       return write(quality(), structSize, structure, QUALITY_FIRST_SIZE);
+    case WLK_STRUCT_QUALITY_STATE:
+      return write(blank<WlkQualityState>(sType), structSize, structure);
     case WLK_STRUCT_FRAME_INFO:
       return write(blank<WlkFrameInfo>(sType), structSize, structure);
     case WLK_STRUCT_HEADLESS_TARGETS:

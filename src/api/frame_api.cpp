@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "api/context.hpp"
+#include "api/control.hpp"
 #include "api/plan_input.hpp"
 #include "api/sky_light.hpp"
 
@@ -227,6 +228,7 @@ void recordUpdate(WlkContext_T& c, VkCommandBuffer commands) {
 
 void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
                  const ViewTargets& targets) {
+  beginControl(c, view);
   PlanInput input = planInput(c, view);
   // Headless and separate targets hold a result even when nothing is drawn; an engine's image that
   // is composited in place does not need one.
@@ -253,6 +255,7 @@ void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
   }
   input.volumes = view.planVolumes;
   makePlan(input, view.plan);
+  controlPlan(c, view, input);
   const PlanetFrame eye = planetFrameAt(input.planet, input.eye);
   chooseSkyTable(c.skyLight.now, input.planet.radius, eye, view.plan);
 
@@ -304,6 +307,7 @@ WlkResult wlkPrepare(WlkContext context) {
     features.shapedDisk = c.shapedDisk();
     prepareSkyLight(c);
     c.recordVolumes.reserve(c.volumes.count());
+    c.errorVolumes.reserve(c.volumes.count());
     for (uint32_t i = 0; i < c.views.slotCount(); ++i) {
       ViewState* view = c.views.at(i);
       if (view != nullptr && nearSpace(c, *view) && !view->resources.space) {

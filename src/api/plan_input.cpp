@@ -35,7 +35,8 @@ PlanInput planInput(const WlkContext_T& c, const ViewState& view) {
   input.clipFromEye = view.clipFromEye;
   input.width = view.info.width;
   input.height = view.info.height;
-  input.quality = resolveQuality(view.quality);
+  input.quality = governed(view.quality) ? rungQuality(view.quality, view.governor.state().rung)
+                                         : resolveQuality(view.quality);
   return input;
 }
 

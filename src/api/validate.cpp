@@ -44,6 +44,8 @@ const char* structName(uint32_t sType) {
       return "WlkCamera";
     case WLK_STRUCT_QUALITY:
       return "WlkQuality";
+    case WLK_STRUCT_QUALITY_STATE:
+      return "WlkQualityState";
     case WLK_STRUCT_FRAME_INFO:
       return "WlkFrameInfo";
     case WLK_STRUCT_HEADLESS_TARGETS:

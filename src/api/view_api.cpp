@@ -138,10 +138,30 @@ WlkQuality checkedQuality(const WlkQuality* quality) {
   if (q.volumeCells != 0) {
     checkRange(q.sType, "volumeCells", q.volumeCells, 8, 128);
   }
+  checkRange(q.sType, "control", q.control, WLK_CONTROL_LEVEL, WLK_CONTROL_ERROR);
+  checkRange(q.sType, "lowestLevel", q.lowestLevel, WLK_QUALITY_LOW, q.level);
+  const bool timed = q.control == WLK_CONTROL_TIME || q.control == WLK_CONTROL_REPORTED_TIME;
+  const bool byError = q.control == WLK_CONTROL_ERROR;
+  checkRange(q.sType, "timeBudget_ms", static_cast<double>(q.timeBudget_ms),
+             timed ? static_cast<double>(0.01f) : 0, timed ? 1000 : 0);
+  checkRange(q.sType, "errorTarget", static_cast<double>(q.errorTarget),
+             byError ? static_cast<double>(1e-4f) : 0, byError ? 1 : 0);
+  if (governed(q)) {
+    checkRange(q.sType, "sliceCount", q.sliceCount, 0, 0);
+    checkRange(q.sType, "batchSize", q.batchSize, 0, 0);
+    checkRange(q.sType, "lightBufferSize", q.lightBufferSize, 0, 0);
+  }
   if ((q.flags & ~uint64_t{WLK_QUALITY_NO_SKIP}) != 0) {
     fail(WLK_ERROR_INVALID_ARGUMENT, q.sType, "flags", "WlkQuality::flags has unknown bits");
   }
   return q;
+}
+
+// Whether only the budget or the target differ, which no resource depends on.
+bool sameButGoal(const WlkQuality& a, const WlkQuality& b) {
+  return a.control == b.control && a.level == b.level && a.lowestLevel == b.lowestLevel &&
+         a.slicing == b.slicing && a.scattering == b.scattering && a.flags == b.flags &&
+         a.volumeCells == b.volumeCells;
 }
 
 }  // namespace
@@ -200,7 +220,18 @@ WlkResult wlkSetQuality(WlkContext context, WlkView view, const WlkQuality* qual
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
     ViewState& state = c.view(view);
-    state.quality = checkedQuality(quality);
+    const WlkQuality value = checkedQuality(quality);
+    if (value.control == WLK_CONTROL_TIME && !c.device->timestamps()) {
+      fail(WLK_ERROR_MISSING_FEATURE, value.sType, "control",
+           "the queue has no timestamps: report times with WLK_CONTROL_REPORTED_TIME");
+    }
+    if (governed(value) && sameButGoal(value, state.quality)) {
+      state.quality = value;
+      state.governor.retarget();
+      return WLK_SUCCESS;
+    }
+    state.quality = value;
+    state.governor.start(rungRange(value));
     state.prepared = false;
     return WLK_SUCCESS;
   });

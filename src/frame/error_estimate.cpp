@@ -118,17 +118,20 @@ class Body {
             cell, glm::dot(axes[i], axes[i]) / (volume.voxels[static_cast<size_t>(i)] * reach));
       }
     }
-    const double slabs = in.quality.sliceCount;
-    slices_ = missing(FIT.slabScale * std::pow(lightDepth_ / slabs, FIT.slabPower) +
-                      FIT.voxelScale * std::pow(chord / (slabs * cell), FIT.voxelPower) *
-                          std::pow(std::max(1 / volume.fill - 1, 0.0), FIT.edgePower));
+    voxelsAlong_ = chord / cell;
   }
 
-  // Share of the pixel that the body hides, and its errors there.
+  // Error of so many slabs where the body is seen.
+  double slices(double slabs) const {
+    return missing(FIT.slabScale * std::pow(lightDepth_ / slabs, FIT.slabPower) +
+                   FIT.voxelScale * std::pow(voxelsAlong_ / slabs, FIT.voxelPower) *
+                       std::pow(std::max(1 / volume_.fill - 1, 0.0), FIT.edgePower));
+  }
+
+  // Share of the pixel that the body hides, and its error of scattering there.
   struct Seen {
     double share = 0;
     double scattering = 0;
-    double slices = 0;
   };
   Seen along(const glm::dvec3& direction, const ErrorInput& in) const {
     const std::array<double, 2> cut = crossBox(boxFromWorld_, eyeInBox_, direction);
@@ -147,7 +150,6 @@ class Body {
     const double scale = std::exp(with * std::log(a) + (1 - with) * std::log(b));
     const double power = forward ? FIT.forwardPower : FIT.singlePower;
     seen.scattering = missing(volume_.albedo * scale * std::pow(reduced, power));
-    seen.slices = slices_;
     return seen;
   }
 
@@ -158,13 +160,15 @@ class Body {
   double cover_;
   double thin_ = 1;
   double lightDepth_ = 0;
-  double slices_ = 0;
+  double voxelsAlong_ = 0;
 };
 
-}  // namespace
-
-ErrorParts estimateError(const ErrorInput& in) {
+// Means over the picture of the squared parts; those of the slabs for each of `slabs` into
+// `slices`.
+ErrorParts meanSquares(const ErrorInput& in, std::span<const uint32_t> slabs,
+                       std::span<double> slices) {
   ErrorParts squares{};
+  std::fill(slices.begin(), slices.end(), 0.0);
   if (!in.light) {
     return squares;
   }
@@ -207,10 +211,14 @@ ErrorParts estimateError(const ErrorInput& in) {
       const glm::dvec3 direction = glm::normalize(glm::dvec3(far) / far.w);
       double free = 1;  // share of the pixel that no volume hides
       for (const ErrorVolume& volume : in.volumes) {
-        const Body::Seen seen = Body(volume, in).along(direction, in);
+        const Body body(volume, in);
+        const Body::Seen seen = body.along(direction, in);
         const double share = free * seen.share;
         squares[WLK_APPROXIMATION_VOLUME_SCATTERING] += share * seen.scattering * seen.scattering;
-        squares[WLK_APPROXIMATION_VOLUME_SLICES] += share * seen.slices * seen.slices;
+        for (size_t i = 0; share > 0 && i < slabs.size(); ++i) {
+          const double error = body.slices(slabs[i]);
+          slices[i] += share * error * error / (GRID * GRID);
+        }
         free -= share;
       }
       const double ground =
@@ -235,10 +243,35 @@ ErrorParts estimateError(const ErrorInput& in) {
       }
     }
   }
-  ErrorParts parts{};
-  std::transform(squares.begin(), squares.end(), parts.begin(),
-                 [](double square) { return std::sqrt(square / (GRID * GRID)); });
+  for (double& square : squares) {
+    square /= GRID * GRID;
+  }
+  return squares;
+}
+
+}  // namespace
+
+ErrorParts estimateError(const ErrorInput& in) {
+  const uint32_t slabs = in.quality.sliceCount;
+  double slices = 0;
+  ErrorParts parts = meanSquares(in, {&slabs, 1}, {&slices, 1});
+  parts[WLK_APPROXIMATION_VOLUME_SLICES] = slices;
+  for (double& part : parts) {
+    part = std::sqrt(part);
+  }
   return parts;
+}
+
+void estimateErrors(const ErrorInput& in, std::span<const uint32_t> slabs,
+                    std::span<double> errors) {
+  const ErrorParts squares = meanSquares(in, slabs, errors);
+  double others = 0;
+  for (const double square : squares) {
+    others += square;
+  }
+  for (double& error : errors) {
+    error = std::min(std::sqrt(others + error), 1.0);
+  }
 }
 
 }  // namespace welkin

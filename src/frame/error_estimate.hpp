@@ -40,4 +40,8 @@ struct ErrorInput {
 using ErrorParts = std::array<double, WLK_MAX_APPROXIMATIONS>;
 ErrorParts estimateError(const ErrorInput& input);
 
+// The whole error, in [0, 1], for each of `slabs` in place of the quality's; allocates nothing.
+void estimateErrors(const ErrorInput& input, std::span<const uint32_t> slabs,
+                    std::span<double> errors);
+
 }  // namespace welkin

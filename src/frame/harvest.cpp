@@ -39,6 +39,14 @@ void harvest(vk::Device& device, ViewState& view, uint64_t completed) {
       before = now;
     }
     view.record.times.assign(slot.passes.begin(), slot.passes.end());
+    if (view.quality.control == WLK_CONTROL_TIME) {
+      double time = 0;
+      for (const PassTime& pass : view.record.times) {
+        time += 1e-6 * static_cast<double>(pass.nanoseconds);
+      }
+      view.governor.feedTime(slot.frameIndex, time,
+                             static_cast<double>(view.quality.timeBudget_ms));
+    }
   }
 }
 

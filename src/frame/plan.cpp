@@ -279,6 +279,8 @@ SliceQuality resolveQuality(const WlkQuality& quality) {
   result.wholeOrders = scattering == WLK_SCATTERING_FORWARD_INTEGER;
   result.multipleSky = scattering != WLK_SCATTERING_SINGLE;
   result.noSkip = (quality.flags & WLK_QUALITY_NO_SKIP) != 0;
+  result.lightRoom = result.lightSize;
+  result.cellRoom = result.transportCells;
   return result;
 }
 
@@ -349,6 +351,7 @@ SliceLayout layoutSlices(const glm::dmat4x3& box, const glm::dvec3& toLight, con
 
 void makePlan(const PlanInput& in, Plan& plan) {
   plan.volumes.clear();
+  plan.quality = in.quality;
   plan.drawnCount = 0;
   plan.volumeRect = {};
   const PlanetFrame eye = planetFrameAt(in.planet, in.eye);

@@ -28,6 +28,9 @@ struct SliceQuality {
   bool transport;
   uint32_t transportCells;
   bool multipleSky;  // light scattered more than once in air and fog
+  // Light-buffer texels and cells along an edge that the view's images have room for.
+  uint32_t lightRoom;
+  uint32_t cellRoom;
   // Index of the scattering tables.
   uint32_t form() const { return transport ? 2 : (forwardScattering && wholeOrders ? 1 : 0); }
 };
@@ -134,6 +137,7 @@ struct Plan {
   bool allLight = false;    // clear air: its table holds light scattered once, too
   uint32_t skyZeniths = 0;  // of its table
   bool composite = false;
+  SliceQuality quality{};
   uint32_t skyReason = WLK_REASON_NEEDED;
   uint32_t compositeReason = WLK_REASON_NEEDED;
 

@@ -40,7 +40,7 @@ class Recorder {
         in_(input),
         targets_(targets),
         slot_(view.resources.slots[input.slot]),
-        quality_(resolveQuality(view.quality)),
+        quality_(view.plan.quality),
         bindings_(device) {}
 
   void run() {

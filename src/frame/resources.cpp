@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "failure.hpp"
+#include "frame/ladder.hpp"
 #include "frame/transport.hpp"
 #include "frame/uniforms.hpp"
 #include "tables/scattering_orders.hpp"
@@ -294,7 +295,7 @@ vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& v)
 void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
                  uint32_t volumeCount, uint32_t framesInFlight, const SceneFeatures& features,
                  std::span<const uint32_t> fieldCounts, std::pmr::memory_resource* memory) {
-  const SliceQuality quality = resolveQuality(view.quality);
+  const SliceQuality quality = roomFor(view.quality);
   const WlkViewInfo& info = view.info;
   preparePipelines(pipelines, view, features, fieldCounts);
 

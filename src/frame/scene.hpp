@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "frame/governor.hpp"
 #include "frame/plan.hpp"
 #include "particles/medium.hpp"
 #include "vk/device.hpp"
@@ -202,6 +203,7 @@ struct ViewState {
   glm::dmat4 clipFromEye{1.0};
   double skyDepth = 0;
   WlkQuality quality{};
+  Governor governor;  // where the quality is governed
   ViewResources resources;
   Plan plan;
   std::pmr::vector<PlanVolume> planVolumes;

@@ -144,7 +144,7 @@ TransportCommands recordTransport(const vk::Device& device, const vk::Pipelines&
   ViewResources& r = view.resources;
   const RecordVolume& volume = in.volumes[planned.index];
   const VolumeState& state = *volume.state;
-  const TransportShape shape = transportShape(state, resolveQuality(view.quality).transportCells);
+  const TransportShape shape = transportShape(state, view.plan.quality.transportCells);
   TransportGrid& grid = r.grids[planned.index];
   BoundSet& set = r.slots[in.slot].transport[planned.index];
   const VkDeviceSize offset =

@@ -188,8 +188,10 @@ void fillVolume(const VolumeState& volume, const PlannedVolume& planned, const g
   boxFromEye[3] = glm::dvec4(-(inverse * box[3]), 1.0);
   const SliceLayout& layout = planned.layout;
   out.boxFromEye = glm::mat4(boxFromEye);
-  out.lightU = glm::vec4(layout.lightU);
-  out.lightV = glm::vec4(layout.lightV);
+  // The margin of layoutSlices keeps filtering inside the part of the buffer that is used.
+  const double used = static_cast<double>(quality.lightSize) / quality.lightRoom;
+  out.lightU = glm::vec4(layout.lightU * used);
+  out.lightV = glm::vec4(layout.lightV * used);
   out.plane = glm::vec4(layout.plane);
   const glm::dvec3 origin = inverse * (layout.texelOrigin - box[3]);
   // Longest stretch of a ray between two samples: at 1.5 slabs, stretches of optical depth 2 drew
@@ -209,7 +211,7 @@ void fillVolume(const VolumeState& volume, const PlannedVolume& planned, const g
       out.gridOffset[i] = static_cast<float>(-shape.origin[i] * cells / shape.size[i]);
       out.gridEnd[i] = static_cast<float>(cells - 0.5);
     }
-    out.gridEnd.w = 1.0f / static_cast<float>(transportImageEdge(quality.transportCells));
+    out.gridEnd.w = 1.0f / static_cast<float>(transportImageEdge(quality.cellRoom));
   }
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
     const FieldState& field = volume.fields[i];

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "vk/device.hpp"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "failure.hpp"
@@ -32,6 +34,16 @@ bool Device::supports(VkFormat format, VkFormatFeatureFlags features) const {
   VkFormatProperties properties{};
   vk_.GetPhysicalDeviceFormatProperties(info_.physicalDevice, format, &properties);
   return (properties.optimalTilingFeatures & features) == features;
+}
+
+bool Device::timestamps() const {
+  constexpr uint32_t MOST = 32;
+  std::array<VkQueueFamilyProperties, MOST> families{};
+  uint32_t count = MOST;
+  vk_.GetPhysicalDeviceQueueFamilyProperties(info_.physicalDevice, &count, families.data());
+  const uint32_t family = info_.queueFamilyIndex;
+  return family < std::min(count, MOST) && families[family].timestampValidBits > 0 &&
+         properties_.limits.timestampPeriod > 0;
 }
 
 Buffer::Buffer(Device& device, VkDeviceSize size, VkBufferUsageFlags usage, bool hostVisible)

@@ -35,6 +35,8 @@ class Device {
   const VkPhysicalDeviceProperties& properties() const { return properties_; }
   DeviceMemory& memory() { return *memory_; }
   bool supports(VkFormat format, VkFormatFeatureFlags features) const;
+  // Whether the queue writes timestamps.
+  bool timestamps() const;
 
  private:
   DeviceInfo info_;

@@ -93,8 +93,8 @@ int main() {
   makeSetsTheHead<WlkErrorInfo, WlkContextInfo, WlkHeadlessInfo, WlkCapabilities, WlkPlanet, WlkSky,
                   WlkLight, WlkFog, WlkAbsorber, WlkAtmospherePreset, WlkMediumInfo,
                   WlkMediumOptics, WlkVolumeInfo, WlkVolumeUpload, WlkViewInfo, WlkCamera,
-                  WlkQuality, WlkFrameInfo, WlkHeadlessTargets, WlkImageData, WlkFrameStats,
-                  WlkRayBatch, WlkPhaseQuery, WlkSkyMapQuery, WlkVulkanDeviceInfo,
+                  WlkQuality, WlkQualityState, WlkFrameInfo, WlkHeadlessTargets, WlkImageData,
+                  WlkFrameStats, WlkRayBatch, WlkPhaseQuery, WlkSkyMapQuery, WlkVulkanDeviceInfo,
                   WlkVulkanRequirements, WlkVulkanImage, WlkVulkanViewTargets>();
   movesOnly<welkin::Context>();
   movesOnly<welkin::Medium>();

@@ -37,6 +37,11 @@ Calls viewCalls() {
             const auto quality = make<WlkQuality>();
             return wlkSetQuality(c, {id}, &quality);
           },
+          [](WlkContext c, uint64_t id) { return wlkReportFrameTime(c, {id}, 1, 1.0); },
+          [](WlkContext c, uint64_t id) {
+            auto state = make<WlkQualityState>();
+            return wlkGetQualityState(c, {id}, &state);
+          },
           [](WlkContext c, uint64_t id) { return wlkRenderHeadless(c, {id}, nullptr); },
           [](WlkContext c, uint64_t id) {
             const auto image = make<WlkImageData>();

@@ -223,6 +223,9 @@ TEST(StructHeader, OfOutputStructuresIsCheckedAndOnlyKnownBytesAreWritten) {
         return wlkGetFrameStats(c, victim.scene.view, p, &count, nullptr);
       },
       "WlkFrameStats");
+  abuseOutput<WlkQualityState>(
+      [&](WlkQualityState* p) { return wlkGetQualityState(c, victim.scene.view, p); },
+      "WlkQualityState");
   abuseOutput<WlkErrorEstimate>(
       [&](WlkErrorEstimate* p) { return wlkGetErrorEstimate(c, victim.scene.view, p); },
       "WlkErrorEstimate");

@@ -2,6 +2,8 @@
 // Sizes, counts, enumerations and flags outside their ranges; states that do not fit the call.
 #include <welkin/welkin_vulkan.h>
 
+#include <cmath>
+
 #include "stress/abuse.hpp"
 
 namespace welkin::test {
@@ -134,6 +136,32 @@ TEST(Limits, OfTheQualityAreChecked) {
       {"volumeCells", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.volumeCells = 7; }},
       {"volumeCells", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.volumeCells = 129; }},
       {"volumeCells", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.volumeCells = HUGE_COUNT; }},
+      {"control", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.control = 4; }},
+      {"lowestLevel", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.lowestLevel = WLK_QUALITY_ULTRA; }},
+      {"timeBudget_ms", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.timeBudget_ms = 1; }},
+      {"timeBudget_ms", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.control = WLK_CONTROL_TIME; }},
+      {"timeBudget_ms", WLK_ERROR_INVALID_ARGUMENT,
+       [](Q& q) {
+         q.control = WLK_CONTROL_REPORTED_TIME;
+         q.timeBudget_ms = NAN;
+       }},
+      {"timeBudget_ms", WLK_ERROR_INVALID_ARGUMENT,
+       [](Q& q) {
+         q.control = WLK_CONTROL_TIME;
+         q.timeBudget_ms = 1e30f;
+       }},
+      {"errorTarget", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.errorTarget = 0.1f; }},
+      {"errorTarget", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.control = WLK_CONTROL_ERROR; }},
+      {"errorTarget", WLK_ERROR_INVALID_ARGUMENT,
+       [](Q& q) {
+         q.control = WLK_CONTROL_ERROR;
+         q.errorTarget = -1;
+       }},
+      {"sliceCount", WLK_ERROR_INVALID_ARGUMENT,
+       [](Q& q) {
+         q.control = WLK_CONTROL_ERROR;
+         q.errorTarget = 0.1f;
+       }},
       {"flags", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.flags = 2; }},
       {"flags", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.flags = uint64_t{1} << 63; }}};
   for (const auto& test : cases) {
