@@ -220,7 +220,9 @@ enum {
   /** Light of the sky scattered more than once, by direction. */
   WLK_PASS_SKY_TABLE = 4,
   /** Light inside a volume that was scattered before (WLK_SCATTERING_ALL_ORDERS). */
-  WLK_PASS_VOLUME_LIGHT = 5
+  WLK_PASS_VOLUME_LIGHT = 5,
+  /** A map of the volumes' shadow (welkin_vulkan.h). */
+  WLK_PASS_SHADOW_MAP = 6
 };
 
 /** Why a pass was recorded or not. */

@@ -328,6 +328,7 @@ WlkResult wlkPrepare(WlkContext context) {
       std::swap(view->resources, carrier.resources);
       view->prepared = true;
     }
+    prepareShadowMaps(c, {counts.data(), kinds});
     c.collect();
     return WLK_SUCCESS;
   });

@@ -24,7 +24,9 @@ enum class Pass : uint32_t {
   TransportGather,
   TransportRestrict,
   TransportSource,
-  TransportView
+  TransportView,
+  ShadowMap,
+  ShadowResolve
 };
 
 constexpr uint32_t MAX_CONSTANTS = 12;
@@ -87,6 +89,14 @@ enum TransportBinding : uint32_t {
   TRANSPORT_BINDING_COUNT = 10
 };
 
+enum ShadowBinding : uint32_t {
+  BIND_SHADOW_VOLUME = 0,
+  BIND_SHADOW_SUMS = 1,
+  BIND_SHADOW_TARGET = 2,
+  BIND_SHADOW_FIELD0 = 3,
+  SHADOW_BINDING_COUNT = 7
+};
+
 class Pipelines {
  public:
   Pipelines(Device& device, std::pmr::memory_resource* host);
@@ -103,6 +113,8 @@ class Pipelines {
   VkDescriptorSetLayout compositeSetLayout() const { return compositeSet_; }
   VkDescriptorSetLayout skySetLayout() const { return skySet_; }
   VkDescriptorSetLayout transportSetLayout() const { return transportSet_; }
+  VkDescriptorSetLayout shadowSetLayout() const { return shadowSet_; }
+  VkPipelineLayout shadowLayout() const { return shadowLayout_; }
   VkPipelineLayout transportLayout() const { return transportLayout_; }
   VkPipelineLayout skyLayout() const { return skyLayout_; }
   VkPipelineLayout volumeLayout() const { return volumeLayout_; }
@@ -130,6 +142,8 @@ class Pipelines {
   VkDescriptorSetLayout compositeSet_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout skySet_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout transportSet_ = VK_NULL_HANDLE;
+  VkDescriptorSetLayout shadowSet_ = VK_NULL_HANDLE;
+  VkPipelineLayout shadowLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout transportLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout volumeLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout skyLayout_ = VK_NULL_HANDLE;
