@@ -138,7 +138,7 @@ WlkQuality checkedQuality(const WlkQuality* quality) {
   if (q.volumeCells != 0) {
     checkRange(q.sType, "volumeCells", q.volumeCells, 8, 128);
   }
-  if ((q.flags & ~uint64_t{WLK_QUALITY_NO_SKIP}) != 0) {
+  if ((q.flags & ~uint64_t{WLK_QUALITY_NO_SKIP | WLK_QUALITY_VOLUME_SHADOWS}) != 0) {
     fail(WLK_ERROR_INVALID_ARGUMENT, q.sType, "flags", "WlkQuality::flags has unknown bits");
   }
   return q;

@@ -27,7 +27,8 @@ struct SliceQuality {
   // Light inside volumes on a grid of `transportCells` along each axis; excludes forwardScattering.
   bool transport;
   uint32_t transportCells;
-  bool multipleSky;  // light scattered more than once in air and fog
+  bool volumeShadows;  // on air, fog and ground
+  bool multipleSky;    // light scattered more than once in air and fog
   // Index of the scattering tables.
   uint32_t form() const { return transport ? 2 : (forwardScattering && wholeOrders ? 1 : 0); }
 };
@@ -134,6 +135,8 @@ struct Plan {
   bool allLight = false;    // clear air: its table holds light scattered once, too
   uint32_t skyZeniths = 0;  // of its table
   bool composite = false;
+  bool shadows = false;  // of volumes, on air, fog and ground
+  uint32_t shadowReason = WLK_REASON_NEEDED;
   uint32_t skyReason = WLK_REASON_NEEDED;
   uint32_t compositeReason = WLK_REASON_NEEDED;
 

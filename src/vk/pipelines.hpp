@@ -29,7 +29,7 @@ enum class Pass : uint32_t {
   ShadowResolve
 };
 
-constexpr uint32_t MAX_CONSTANTS = 12;
+constexpr uint32_t MAX_CONSTANTS = 13;
 
 // Values of constant_id 0, 1, 2, ... of the pass; booleans are 0 or 1.
 struct PipelineKey {
@@ -68,7 +68,8 @@ enum CompositeBinding : uint32_t {
   BIND_COMPOSITE_SKY_TABLE = 8,
   BIND_COMPOSITE_SKY_PEAK = 9,
   BIND_COMPOSITE_SKY_MOMENTS = 10,
-  COMPOSITE_BINDING_COUNT = 11
+  BIND_COMPOSITE_SHADOW = 11,
+  COMPOSITE_BINDING_COUNT = 12
 };
 enum SkyTableBinding : uint32_t {
   BIND_SKY_FRAME = 0,
