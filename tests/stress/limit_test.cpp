@@ -134,7 +134,7 @@ TEST(Limits, OfTheQualityAreChecked) {
       {"volumeCells", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.volumeCells = 7; }},
       {"volumeCells", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.volumeCells = 129; }},
       {"volumeCells", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.volumeCells = HUGE_COUNT; }},
-      {"flags", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.flags = 2; }},
+      {"flags", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.flags = 4; }},
       {"flags", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.flags = uint64_t{1} << 63; }}};
   for (const auto& test : cases) {
     auto quality = make<Q>();
