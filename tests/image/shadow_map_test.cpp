@@ -53,7 +53,8 @@ struct LightRay {
 };
 LightRay rayOf(const WlkShadowMapState& state, size_t texel, const Point& toSun) {
   const double u = (static_cast<double>(texel % SIZE) + 0.5) / SIZE;
-  const double v = (static_cast<double>(texel / SIZE) + 0.5) / SIZE;
+  const size_t row = texel / SIZE;
+  const double v = (static_cast<double>(row) + 0.5) / SIZE;
   LightRay ray;
   ray.origin = worldFromMap(state.mapFromWorld, {u, v, -30000});
   for (size_t i = 0; i < 3; ++i) {
