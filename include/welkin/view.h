@@ -113,7 +113,10 @@ enum {
 
 enum {
   /** Record every pass whether needed or not; for tests that compare with skipping. */
-  WLK_QUALITY_NO_SKIP = 1u << 0
+  WLK_QUALITY_NO_SKIP = 1u << 0,
+  /** Volumes cast shadows on air, fog and the bare planet, from the first light, as far as it is
+   *  scattered once. */
+  WLK_QUALITY_VOLUME_SHADOWS = 1u << 1
 };
 
 /** Who chooses between the lowest level and `level`. Controls other than LEVEL leave sliceCount,
@@ -146,7 +149,7 @@ typedef struct WlkQuality {
   uint32_t slicing;
   /** WLK_SCATTERING_*. Default DEFAULT. */
   uint32_t scattering;
-  /** Bits WLK_QUALITY_NO_SKIP. Default 0. */
+  /** Bits WLK_QUALITY_NO_SKIP, WLK_QUALITY_VOLUME_SHADOWS. Default 0. */
   uint64_t flags;
   /** With WLK_SCATTERING_ALL_ORDERS: edge of a cube with as many cells as the grid of a volume has
    *  at most. 0 or [8, 128]. Default 0. */
@@ -309,7 +312,9 @@ enum {
   /** Light of the sky scattered more than once, by direction. */
   WLK_PASS_SKY_TABLE = 4,
   /** Light inside a volume that was scattered before (WLK_SCATTERING_ALL_ORDERS). */
-  WLK_PASS_VOLUME_LIGHT = 5
+  WLK_PASS_VOLUME_LIGHT = 5,
+  /** A map of the volumes' shadow: the engine's (welkin_vulkan.h), or the view's own. */
+  WLK_PASS_SHADOW_MAP = 6
 };
 
 /** Why a pass was recorded or not. */

@@ -28,6 +28,8 @@ struct WlkVulkanDeviceInfo;
 struct WlkVulkanRequirements;
 struct WlkVulkanImage;
 struct WlkVulkanViewTargets;
+struct WlkShadowMapInfo;
+struct WlkShadowMapState;
 
 namespace welkin {
 
@@ -70,6 +72,8 @@ WELKIN_STRUCT_TYPE(::WlkVulkanDeviceInfo, WLK_STRUCT_VULKAN_DEVICE_INFO);
 WELKIN_STRUCT_TYPE(::WlkVulkanRequirements, WLK_STRUCT_VULKAN_REQUIREMENTS);
 WELKIN_STRUCT_TYPE(::WlkVulkanImage, WLK_STRUCT_VULKAN_IMAGE);
 WELKIN_STRUCT_TYPE(::WlkVulkanViewTargets, WLK_STRUCT_VULKAN_VIEW_TARGETS);
+WELKIN_STRUCT_TYPE(::WlkShadowMapInfo, WLK_STRUCT_SHADOW_MAP_INFO);
+WELKIN_STRUCT_TYPE(::WlkShadowMapState, WLK_STRUCT_SHADOW_MAP_STATE);
 #undef WELKIN_STRUCT_TYPE
 
 /** A structure with sType, structSize, next and the defaults of the C header. */

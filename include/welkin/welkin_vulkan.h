@@ -132,6 +132,91 @@ WLK_API WlkResult wlkVulkanCmdUpdate(WlkContext context, VkCommandBuffer command
 WLK_API WlkResult wlkVulkanCmdRenderView(WlkContext context, VkCommandBuffer commandBuffer,
                                          WlkView view, const WlkVulkanViewTargets* targets);
 
+/* -------------------------------------------------------------------------------- shadow maps */
+
+/** A map of what volumes take from a light, for the engine's own surfaces. */
+typedef struct WlkShadowMap {
+  uint64_t id;
+} WlkShadowMap;
+
+/** What a texel says of the volumes that visible (wlkSetLights) parallel light crosses. */
+enum {
+  /** Optical depth of all of them. R16_SFLOAT or R32_SFLOAT. */
+  WLK_SHADOW_OPTICAL_DEPTH = 0,
+  /** e to the minus that, RGB; alpha 1. R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT. */
+  WLK_SHADOW_TRANSMITTANCE = 1,
+  /** For what stands between or inside them, too. R: optical depth of all of them; G, B: distances
+   * d (m, see WlkShadowMapState) between which it rises evenly: to R * clamp((d - G) / (B - G), 0,
+   *  1). Exact for one homogeneous layer, else its mean and spread are those of the extinction;
+   *  ends go a texel further, so that linear filters may be used.
+   *  A: 0. R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT. */
+  WLK_SHADOW_LAYER = 2
+};
+
+/** An orthographic map along the direction of a light. Texels keep their places in the world while
+ *  the light stands still: the middle moves in steps of a texel. Volumes of any height count. */
+typedef struct WlkShadowMapInfo {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Texels. [1, 8192], default 512 x 512. */
+  uint32_t width;
+  uint32_t height;
+  /** WLK_SHADOW_*. Default OPTICAL_DEPTH. */
+  uint32_t content;
+  /** Index in wlkSetLights. [0, WlkCapabilities::maxLights - 1], default 0. */
+  uint32_t light;
+  /** What the middle shows, for example the eye. World, m, |x| <= 1e9. Default 0. */
+  double center[3];
+  /** Edges of the area, across the light. m, [1, 1e7], default 20000. */
+  double extent[2];
+  /** Most samples of a volume along the light; one per voxel are taken if that suffices. [8, 4096],
+   *  default 512. */
+  uint32_t maxSamples;
+  uint32_t reserved0;
+} WlkShadowMapInfo;
+
+/** Makes a map; the image is the engine's. [C] Errors: INVALID_ARGUMENT, WRONG_STATE outside
+ *  engine-device mode. Needs wlkPrepare. */
+WLK_API WlkResult wlkVulkanCreateShadowMap(WlkContext context, const WlkShadowMapInfo* info,
+                                           WlkShadowMap* map);
+/** Changes it, for example where it lies. Only another size or content needs wlkPrepare. [C] */
+WLK_API WlkResult wlkVulkanSetShadowMap(WlkContext context, WlkShadowMap map,
+                                        const WlkShadowMapInfo* info);
+WLK_API WlkResult wlkVulkanDestroyShadowMap(WlkContext context, WlkShadowMap map); /* [C] */
+
+/** Writes the map to an image of its size (usage STORAGE), after wlkVulkanCmdUpdate and outside a
+ *  render pass; at most once per map and frame. Where light, volumes, area and image are as they
+ *  were, it records nothing but the change from before.layout to after.layout, if they differ: keep
+ *  the image's contents, or give UNDEFINED to have them written anew. A field in an engine's image
+ *  counts as changed each frame. Without light or volumes the map says so once. [C]
+ *  Errors: WRONG_STATE, NOT_PREPARED, INVALID_ARGUMENT, UNSUPPORTED_FORMAT. */
+WLK_API WlkResult wlkVulkanCmdRenderShadowMap(WlkContext context, VkCommandBuffer commandBuffer,
+                                              WlkShadowMap map, const WlkVulkanImage* image);
+
+/** How to read the map that was recorded last, and what that cost. */
+typedef struct WlkShadowMapState {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  uint64_t frameIndex;
+  /** Row-major 3x4: (u, v, d) = M * (x, y, z, 1). u, v: [0, 1] over the map, (0, 0) at the outer
+   *  corner of texel (0, 0). d: m along the light, larger is further from it, 0 near `center`. */
+  double mapFromWorld[12];
+  /** Volumes in it. */
+  uint32_t volumes;
+  uint32_t barriers;
+  uint32_t descriptorWrites;
+  uint32_t reserved0;
+  /** `name`, `reason` and so on of the whole map: WLK_REASON_NEEDED, UNCHANGED, and for a map
+   *  without shadow NO_LIGHT, NOTHING_TO_DRAW (no volume), ZERO_DENSITY, OUTSIDE_VIEW. */
+  WlkPassStats pass;
+} WlkShadowMapState;
+
+/** State of the map in the frame that was recorded last. [C] NOT_READY before the first. */
+WLK_API WlkResult wlkVulkanGetShadowMap(WlkContext context, WlkShadowMap map,
+                                        WlkShadowMapState* state);
+
 #ifdef __cplusplus
 }
 #endif

@@ -22,6 +22,8 @@ const char* passKind(uint32_t pass) {
       return "sky_table";
     case WLK_PASS_VOLUME_LIGHT:
       return "volume_light";
+    case WLK_PASS_SHADOW_MAP:
+      return "shadow_map";
     case WLK_PASS_COMPOSITE:
       return "composite";
     default:

@@ -8,7 +8,7 @@ namespace {
 
 WlkQuality parseQuality(const JsonNode& node) {
   node.onlyKeys({"level", "sliceCount", "batchSize", "lightBufferSize", "slicing", "scattering",
-                 "volumeCells", "noSkip"});
+                 "volumeCells", "noSkip", "volumeShadows"});
   auto quality = make<WlkQuality>();
   // The words stand in the order of the API's values.
   if (node.has("level")) {
@@ -28,6 +28,9 @@ WlkQuality parseQuality(const JsonNode& node) {
   }
   if (node.has("noSkip") && node.at("noSkip").boolean()) {
     quality.flags |= WLK_QUALITY_NO_SKIP;
+  }
+  if (node.has("volumeShadows") && node.at("volumeShadows").boolean()) {
+    quality.flags |= WLK_QUALITY_VOLUME_SHADOWS;
   }
   return quality;
 }

@@ -39,4 +39,8 @@ struct FrameUniforms {
   vec4 fogFirst;        // 3 times its first moment, RGB; scale of the phase function
   vec4 fogSecond;       // 5/2 of its second moment, RGB; zeniths above the horizon of the sky table
   vec4 fogBound;        // largest value of the phase function without the peak, RGB, 1/sr
+  // Of the map of volumes' shadow: u, v in [0, 1] and distance d along the light (m), as
+  // dot((position, 1), row); least d of a volume.
+  vec4 shadow[3];
+  vec4 shadowRange;
 };

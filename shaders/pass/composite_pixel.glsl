@@ -28,6 +28,7 @@ layout(set = 0, binding = 10) uniform sampler2D skyMoments;
 #include "air_column.glsl"
 #include "sky_light.glsl"
 #include "sky_lookup.glsl"
+#include "volume_shadow.glsl"
 
 struct PixelLayer {
   vec3 radiance;
@@ -100,6 +101,9 @@ vec3 groundRadiance(Air air, vec3 direction, float ground) {
     vec3 sun = exp(-lightOpticalDepth(air, 0.0f, foot.sunMu));
     float visible = lightVisibility(air, 0.0f, foot.sunMu, light.direction.w);
     vec3 irradiance = sun * (max(foot.sunMu, 0.0f) * visible);
+    if (SHADOWS_ENABLED && i == 0) {
+      irradiance *= exp(-volumeShadow(direction * ground).x);
+    }
     if (MULTIPLE_ENABLED) {
       irradiance += groundLight(foot.sunMu);
     }
@@ -152,6 +156,7 @@ PixelLayer pixelLayer(uvec2 pixel) {
   PixelLayer layer;
   layer.radiance = vec3(0.0f);
   layer.transmittance = vec3(1.0f);
+  vec3 shade = vec3(0.0f);
   if (ALL_LIGHT) {
     layer = clearAir(air, ray, direction, reach, ground);
   } else if (AIR_ENABLED || FOG_ENABLED) {
@@ -174,11 +179,16 @@ PixelLayer pixelLayer(uvec2 pixel) {
     }
     layer.radiance += layer.transmittance * disk;
   }
+  if (SHADOWS_ENABLED) {
+    float passes = VOLUMES_ENABLED && covered(pixel) ? volumeState(pixel).w : 1.0f;
+    shade = shadowedLight(air, ray, direction, reach, passes);
+  }
   if (VOLUMES_ENABLED && covered(pixel)) {
     vec4 state = volumeState(pixel);
     layer.radiance = compositeOver(state.xyz, state.w, layer.radiance);
     layer.transmittance *= state.w;
   }
+  layer.radiance = layer.radiance - shade;
   vec3 color = vec3(dot(frame.colorRed.xyz, layer.radiance),
                     dot(frame.colorGreen.xyz, layer.radiance),
                     dot(frame.colorBlue.xyz, layer.radiance));

@@ -116,11 +116,13 @@ WlkContext_T::WlkContext_T(const WlkContextInfo& contextInfo)
       media(&memory, nextTag()),
       volumes(&memory, nextTag()),
       views(&memory, nextTag()),
+      shadowMaps(&memory, nextTag()),
       pending(&memory),
       retired(&memory),
       imported(&memory),
       recordVolumes(&memory),
-      errorVolumes(&memory) {
+      errorVolumes(&memory),
+      shadowCasters(&memory) {
   wlkInitStruct(WLK_STRUCT_PLANET, sizeof air.planet, &air.planet);
   const ContextChain chain = readChain(contextInfo.next);
   if (chain.headless != nullptr) {
@@ -153,6 +155,11 @@ WlkContext_T::~WlkContext_T() {
   for (uint32_t i = 0; i < views.slotCount(); ++i) {
     if (ViewState* view = views.at(i)) {
       destroyView(*device, *view);
+    }
+  }
+  for (uint32_t i = 0; i < shadowMaps.slotCount(); ++i) {
+    if (ShadowMapState* map = shadowMaps.at(i)) {
+      destroyShadowMap(*device, map->resources);
     }
   }
   completedFrame = ~uint64_t{0};
@@ -202,6 +209,11 @@ void WlkContext_T::invalidate() {
       view->prepared = false;
     }
   }
+  for (uint32_t i = 0; i < shadowMaps.slotCount(); ++i) {
+    if (ShadowMapState* map = shadowMaps.at(i)) {
+      map->prepared = false;
+    }
+  }
 }
 
 void WlkContext_T::forgetBindings() {
@@ -212,6 +224,13 @@ void WlkContext_T::forgetBindings() {
         for (BoundSet& set : slot.volumes) {
           set.bound = {};
         }
+      }
+    }
+  }
+  for (uint32_t i = 0; i < shadowMaps.slotCount(); ++i) {
+    if (ShadowMapState* map = shadowMaps.at(i)) {
+      for (BoundSet& set : map->resources.sets) {
+        set.bound = {};
       }
     }
   }
@@ -235,6 +254,7 @@ void WlkContext_T::collect() {
     ViewState carrier(&memory);
     std::swap(carrier.resources, retired[i].view);
     destroyView(*device, carrier);
+    destroyShadowMap(*device, retired[i].shadowMap);
     if (i + 1 != retired.size()) {
       std::swap(retired[i], retired.back());
     }

@@ -15,6 +15,7 @@
 #include "frame/record.hpp"
 #include "frame/resources.hpp"
 #include "frame/scene.hpp"
+#include "frame/shadow_map_record.hpp"
 #include "host_memory.hpp"
 #include "tables/sky_field.hpp"
 #include "tables/sky_field_solver.hpp"
@@ -26,9 +27,10 @@ constexpr uint32_t CONTEXT_MAGIC = 0x574c4b43;  // "WLKC"
 
 // Objects whose last use was recorded in `frame`; destroyed when that is complete.
 struct Retired {
-  explicit Retired(std::pmr::memory_resource* memory) : view(memory) {}
+  explicit Retired(std::pmr::memory_resource* memory) : view(memory), shadowMap(memory) {}
   uint64_t frame = 0;
   ViewResources view;
+  ShadowMapResources shadowMap;
   std::array<vk::Image, WLK_MAX_FIELDS + SCATTERING_FORMS> images;
   std::array<vk::Buffer, SCATTERING_FORMS + 1> buffers;
 };
@@ -90,6 +92,7 @@ struct WlkContext_T {
   welkin::HandlePool<welkin::MediumState> media;
   welkin::HandlePool<welkin::VolumeState> volumes;
   welkin::HandlePool<welkin::ViewState> views;
+  welkin::HandlePool<welkin::ShadowMapState> shadowMaps;
 
   uint64_t frameIndex = 0;  // 0: no frame begun
   uint64_t completedFrame = 0;
@@ -101,6 +104,7 @@ struct WlkContext_T {
   std::pmr::vector<welkin::ImportedView> imported;
   std::pmr::vector<welkin::RecordVolume> recordVolumes;
   std::pmr::vector<welkin::ErrorVolume> errorVolumes;  // of a view whose error is governed
+  std::pmr::vector<welkin::ShadowCaster> shadowCasters;
   welkin::vk::Image dummy2d;
   welkin::vk::Image dummy3d;
 
@@ -117,7 +121,7 @@ struct WlkContext_T {
   welkin::MediumState& medium(WlkMedium handle);
   welkin::VolumeState& volume(WlkVolume handle);
   welkin::ViewState& view(WlkView handle);
-  // Every view needs wlkPrepare again.
+  // Every view and map needs wlkPrepare again.
   void invalidate();
   // Forget what descriptor sets point to: handles may be reused for other objects.
   void forgetBindings();
@@ -130,6 +134,18 @@ namespace welkin {
 
 // Throws INVALID_HANDLE for null or something that is no context.
 WlkContext_T& checkContext(WlkContext context);
+
+// Throws WRONG_STATE unless a frame of the engine's has begun.
+WlkContext_T& requireFrame(WlkContext context, VkCommandBuffer commands, const char* what);
+
+// Whether every image that descriptors will name has been written once.
+bool everythingUploaded(const WlkContext_T& context);
+
+// Makes what the maps of shadows need.
+void prepareShadowMaps(WlkContext_T& context, std::span<const uint32_t> fieldCounts);
+
+// Hands the map's objects to the frames that use them.
+void retireShadowMap(WlkContext_T& context, ShadowMapState& map);
 
 // Records pending uploads and first-use transitions.
 void recordUpdate(WlkContext_T& context, VkCommandBuffer commands);

@@ -158,6 +158,14 @@ WlkSkyMapQuery skyMap() {
   return q;
 }
 
+WlkShadowMapInfo shadowMap() {
+  auto m = blank<WlkShadowMapInfo>(WLK_STRUCT_SHADOW_MAP_INFO);
+  m.width = m.height = 512;
+  m.extent[0] = m.extent[1] = 20000;
+  m.maxSamples = 512;
+  return m;
+}
+
 WlkPhaseQuery phaseQuery() {
   auto q = blank<WlkPhaseQuery>(WLK_STRUCT_PHASE_QUERY);
   q.order = 1;
@@ -227,6 +235,10 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
       return write(blank<WlkVulkanImage>(sType), structSize, structure);
     case WLK_STRUCT_VULKAN_VIEW_TARGETS:
       return write(blank<WlkVulkanViewTargets>(sType), structSize, structure);
+    case WLK_STRUCT_SHADOW_MAP_INFO:
+      return write(shadowMap(), structSize, structure);
+    case WLK_STRUCT_SHADOW_MAP_STATE:
+      return write(blank<WlkShadowMapState>(sType), structSize, structure);
     default:
       fail(WLK_ERROR_UNKNOWN_STRUCT, sType, "sType", "%u is no structure of this library", sType);
   }

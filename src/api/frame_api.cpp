@@ -326,12 +326,13 @@ WlkResult wlkPrepare(WlkContext context) {
                   {counts.data(), kinds}, &c.memory);
       view->plan.volumes.reserve(c.volumes.count());
       view->planVolumes.reserve(c.volumes.count());
-      view->record.passes.reserve(2 + 3 * size_t{c.volumes.count()});
-      view->record.times.reserve(2 + 3 * size_t{c.volumes.count()});
+      view->record.passes.reserve(3 + 3 * size_t{c.volumes.count()});
+      view->record.times.reserve(3 + 3 * size_t{c.volumes.count()});
       c.retireView(*view);
       std::swap(view->resources, carrier.resources);
       view->prepared = true;
     }
+    prepareShadowMaps(c, {counts.data(), kinds});
     c.collect();
     return WLK_SUCCESS;
   });

@@ -68,6 +68,10 @@ const char* structName(uint32_t sType) {
       return "WlkVulkanImage";
     case WLK_STRUCT_VULKAN_VIEW_TARGETS:
       return "WlkVulkanViewTargets";
+    case WLK_STRUCT_SHADOW_MAP_INFO:
+      return "WlkShadowMapInfo";
+    case WLK_STRUCT_SHADOW_MAP_STATE:
+      return "WlkShadowMapState";
     default:
       return "unknown structure";
   }

@@ -99,6 +99,10 @@ ViewTargets importTargets(WlkContext_T& c, const ViewState& view, const WlkVulka
   return targets;
 }
 
+}  // namespace
+
+namespace welkin {
+
 WlkContext_T& requireFrame(WlkContext context, VkCommandBuffer commands, const char* what) {
   WlkContext_T& c = checkContext(context);
   c.requireDevice(what);
@@ -132,10 +136,6 @@ bool everythingUploaded(const WlkContext_T& c) {
   }
   return true;
 }
-
-}  // namespace
-
-namespace welkin {
 
 VkImageView importView(WlkContext_T& c, const WlkVulkanImage& image, VkImageViewType type,
                        VkImageAspectFlags aspect) {
@@ -227,6 +227,12 @@ WlkResult wlkVulkanForgetImage(WlkContext context, VkImage image) {
         c.imported.pop_back();
       } else {
         ++i;
+      }
+    }
+    for (uint32_t i = 0; i < c.shadowMaps.slotCount(); ++i) {
+      ShadowMapState* map = c.shadowMaps.at(i);
+      if (map != nullptr && map->image == image) {
+        map->image = VK_NULL_HANDLE;
       }
     }
     c.forgetBindings();

@@ -278,6 +278,7 @@ SliceQuality resolveQuality(const WlkQuality& quality) {
       scattering == WLK_SCATTERING_FORWARD || scattering == WLK_SCATTERING_FORWARD_INTEGER;
   result.wholeOrders = scattering == WLK_SCATTERING_FORWARD_INTEGER;
   result.multipleSky = scattering != WLK_SCATTERING_SINGLE;
+  result.volumeShadows = (quality.flags & WLK_QUALITY_VOLUME_SHADOWS) != 0;
   result.noSkip = (quality.flags & WLK_QUALITY_NO_SKIP) != 0;
   result.lightRoom = result.lightSize;
   result.cellRoom = result.transportCells;
@@ -349,6 +350,18 @@ SliceLayout layoutSlices(const glm::dmat4x3& box, const glm::dvec3& toLight, con
   return s;
 }
 
+// Why volumes cast shadows on air, fog and ground or not: those out of view do as well.
+static uint32_t shadowReasonOf(const PlanInput& in, const Plan& plan) {
+  const bool dense = std::any_of(in.volumes.begin(), in.volumes.end(),
+                                 [](const PlanVolume& volume) { return volume.anyDensity; });
+  return !in.quality.volumeShadows || !(plan.air || plan.fog) || in.volumes.empty()
+             ? WLK_REASON_NOTHING_TO_DRAW
+         : (in.layers & WLK_LAYER_VOLUMES) == 0 ? WLK_REASON_LAYER_OFF
+         : !dense                               ? WLK_REASON_ZERO_DENSITY
+         : !plan.lightReaches                   ? WLK_REASON_NO_LIGHT
+                                                : WLK_REASON_NEEDED;
+}
+
 void makePlan(const PlanInput& in, Plan& plan) {
   plan.volumes.clear();
   plan.quality = in.quality;
@@ -408,6 +421,8 @@ void makePlan(const PlanInput& in, Plan& plan) {
                      : (plan.air || plan.fog) && !plan.light ? WLK_REASON_NO_LIGHT
                                                              : WLK_REASON_NOTHING_TO_DRAW;
   }
+  plan.shadowReason = shadowReasonOf(in, plan);
+  plan.shadows = plan.shadowReason == WLK_REASON_NEEDED;
   const bool something = plan.air || plan.fog || plan.drawnCount > 0;
   plan.composite = something || in.mustWrite || in.quality.noSkip;
   plan.compositeReason =

@@ -27,10 +27,11 @@ struct SliceQuality {
   // Light inside volumes on a grid of `transportCells` along each axis; excludes forwardScattering.
   bool transport;
   uint32_t transportCells;
-  bool multipleSky;  // light scattered more than once in air and fog
   // Light-buffer texels and cells along an edge that the view's images have room for.
   uint32_t lightRoom;
   uint32_t cellRoom;
+  bool volumeShadows;  // on air, fog and ground
+  bool multipleSky;    // light scattered more than once in air and fog
   // Index of the scattering tables.
   uint32_t form() const { return transport ? 2 : (forwardScattering && wholeOrders ? 1 : 0); }
 };
@@ -138,6 +139,8 @@ struct Plan {
   uint32_t skyZeniths = 0;  // of its table
   bool composite = false;
   SliceQuality quality{};
+  bool shadows = false;  // of volumes, on air, fog and ground
+  uint32_t shadowReason = WLK_REASON_NEEDED;
   uint32_t skyReason = WLK_REASON_NEEDED;
   uint32_t compositeReason = WLK_REASON_NEEDED;
 

@@ -10,6 +10,7 @@
 #include "frame/resources.hpp"
 #include "frame/sky_bindings.hpp"
 #include "frame/transport_record.hpp"
+#include "frame/view_shadow.hpp"
 
 namespace welkin {
 namespace {
@@ -47,6 +48,9 @@ class Recorder {
     findPipelines();
     start();
     acquireTargets();
+    if (anything_ && recordViewShadow(device_, pipelines_, commands_, view_, in_)) {
+      timestamp(static_cast<uint32_t>(view_.record.passes.size() - 1));
+    }
     recordSkyTable();
     for (const PlannedVolume& volume : view_.plan.volumes) {
       recordVolume(volume);
@@ -57,7 +61,7 @@ class Recorder {
     for (const WlkPassStats& pass : view_.record.passes) {
       slot_.passes.push_back({pass.pass, pass.volume.id, 0});
     }
-    view_.record.stats.descriptorWrites = bindings_.writes();
+    view_.record.stats.descriptorWrites += bindings_.writes();
     slot_.frameIndex = in_.frameIndex;
     slot_.harvested = !anything_;
     view_.lastFrame = in_.frameIndex;

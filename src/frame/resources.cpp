@@ -7,8 +7,10 @@
 
 #include "failure.hpp"
 #include "frame/ladder.hpp"
+#include "frame/shadow_map_record.hpp"
 #include "frame/transport.hpp"
 #include "frame/uniforms.hpp"
+#include "frame/view_shadow.hpp"
 #include "tables/scattering_orders.hpp"
 #include "tables/transport_phase.hpp"
 
@@ -43,6 +45,7 @@ class Draft {
       vk.DestroyDescriptorPool(device.handle(), r.pool, nullptr);
       r.pool = VK_NULL_HANDLE;
     }
+    destroyShadowMap(device, r.shadow.resources);
   }
 
  private:
@@ -58,7 +61,7 @@ VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t vol
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, slots * (4 * volumes + 2)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, slots * (6 * volumes + 3)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, slots * (2 * volumes + 4)},
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, slots * (14 * volumes + 6)}};
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, slots * (14 * volumes + 7)}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.maxSets = sets;
   info.poolSizeCount = static_cast<uint32_t>(sizes.size());
@@ -98,7 +101,7 @@ void makeSlots(vk::Device& device, const vk::Pipelines& pipelines, ViewResources
       set.set = makeSet(device, r.pool, pipelines.transportSetLayout());
     }
     slot.passOfQuery.reserve(r.queryCount);
-    slot.passes.reserve(2 + 3 * size_t{r.volumeCapacity});
+    slot.passes.reserve(3 + 3 * size_t{r.volumeCapacity});
     VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
     info.queryCount = r.queryCount;
@@ -188,12 +191,17 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
       }
       v.ground = sky && (view.info.layers & WLK_LAYER_GROUND) != 0;
       v.multiple = quality.multipleSky && lights > 0;
-      pipelines.prepare(compositeKey(view.info, v));
-      v.space = v.multiple && features.space;
-      pipelines.prepare(compositeKey(view.info, v));
-      v.space = false;
-      v.allLight = v.multiple && sky && !fog;
-      pipelines.prepare(compositeKey(view.info, v));
+      const bool open = v.multiple && sky && !fog;
+      for (const bool shadows : {false, quality.volumeShadows && v.volumes && lights > 0}) {
+        v.shadows = shadows;
+        v.space = v.allLight = false;
+        pipelines.prepare(compositeKey(view.info, v));
+        v.space = v.multiple && features.space;
+        pipelines.prepare(compositeKey(view.info, v));
+        v.space = false;
+        v.allLight = open;
+        pipelines.prepare(compositeKey(view.info, v));
+      }
     }
   }
   for (uint32_t lights = 1; lights <= features.lights; ++lights) {
@@ -289,6 +297,7 @@ vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& v)
   key.constants[9] = v.multiple && v.lights > 0 && (v.air > 0 || v.fog);
   key.constants[10] = v.space && key.constants[9] != 0;
   key.constants[11] = v.allLight && key.constants[9] != 0;
+  key.constants[12] = v.shadows && v.lights > 0;
   return key;
 }
 
@@ -323,7 +332,7 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
       vk::Buffer(device, counterStride * framesInFlight,
                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
   const uint32_t batches = (quality.sliceCount + quality.batchSize - 1) / quality.batchSize;
-  r.queryCount = 3 + volumeCount * (2 * batches + 2);
+  r.queryCount = 4 + volumeCount * (2 * batches + 2);
   const VkDeviceSize pixels = VkDeviceSize{info.width} * info.height;
   const VkDeviceSize stateBytes = volumeCount > 0 ? pixels * 16 : 16;
   r.frameState = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
@@ -345,6 +354,9 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
     if (quality.transport) {
       makeTransport(device, quality, volumeCount, r);
     }
+    if (quality.volumeShadows) {
+      makeViewShadow(device, pipelines, volumeCount, framesInFlight, fieldCounts, r);
+    }
   }
   if (quality.multipleSky && (features.sky || features.fog)) {
     makeSkyTables(device, features, r);
@@ -355,8 +367,8 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   makeSlots(device, pipelines, r, framesInFlight, memory);
   view.plan.volumes.reserve(volumeCount);
   view.planVolumes.reserve(volumeCount);
-  view.record.passes.reserve(2 + 3 * size_t{volumeCount});
-  view.record.times.reserve(2 + 3 * size_t{volumeCount});
+  view.record.passes.reserve(3 + 3 * size_t{volumeCount});
+  view.record.times.reserve(3 + 3 * size_t{volumeCount});
   std::swap(view.resources, r);
   view.prepared = true;
 }

@@ -53,7 +53,7 @@ struct CompositeVariant {
   uint32_t lights;  // Plan::lightCount
   bool volumes, depth;
   uint32_t disk;  // Plan::diskKind
-  bool ground, multiple, space, allLight;
+  bool ground, multiple, space, allLight, shadows;
 };
 vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& variant);
 

@@ -157,15 +157,58 @@ struct ViewSlot {
       : volumes(memory), transport(memory), passOfQuery(memory), passes(memory) {}
 };
 
+struct ShadowSlot {
+  uint64_t frameIndex = 0;  // that wrote the queries, 0 if none waits to be read
+};
+
+// Remade by wlkPrepare when sizes change. Nothing in here is destroyed by its destructor except
+// buffers: destroyShadowMap.
+struct ShadowMapResources {
+  explicit ShadowMapResources(std::pmr::memory_resource* memory)
+      : sets(memory), slots(memory), key(memory), now(memory) {}
+  vk::Buffer uniforms;  // per slot: volumes
+  VkDeviceSize stride = 0;
+  vk::Buffer sums;
+  VkDescriptorPool pool = VK_NULL_HANDLE;
+  VkQueryPool queries = VK_NULL_HANDLE;
+  std::pmr::vector<BoundSet> sets;  // per slot: one of each volume
+  std::pmr::vector<ShadowSlot> slots;
+  uint32_t volumeCapacity = 0;
+  std::pmr::vector<char> key;  // what the image was made from; empty: it holds nothing
+  std::pmr::vector<char> now;  // room for the next key
+};
+
+struct ShadowMapState {
+  explicit ShadowMapState(std::pmr::memory_resource* memory) : resources(memory) {}
+  WlkShadowMapInfo info{};
+  ShadowMapResources resources;
+  bool prepared = false;
+  VkImage image = VK_NULL_HANDLE;  // that holds it
+  uint64_t lastFrame = 0;          // 0: none recorded yet
+  uint64_t gpuTime_ns = 0;
+  WlkShadowMapState last{};
+};
+
+// A volume of the context that the map may show.
+struct ShadowCaster {
+  uint64_t id = 0;
+  const VolumeState* state = nullptr;
+  std::array<VkImageView, WLK_MAX_FIELDS> externalViews{};
+};
+
 // Images and buffers of a view; remade by wlkPrepare when their sizes change.
 struct ViewResources {
-  explicit ViewResources(std::pmr::memory_resource* memory) : grids(memory), slots(memory) {}
+  explicit ViewResources(std::pmr::memory_resource* memory)
+      : grids(memory), shadow(memory), shadowCasters(memory), slots(memory) {}
   vk::Image lightBuffer;
   vk::Image viewSource;  // what cells of the volume in turn scatter towards the eye
   vk::Buffer transportWork;
   VkDeviceSize transportStride = 0;
   VkDeviceSize transportOffset = 0;
   std::pmr::vector<TransportGrid> grids;  // by PlannedVolume::index
+  ShadowMapState shadow;
+  vk::Image shadowImage;  // where the quality asks for shadows on the air
+  std::pmr::vector<ShadowCaster> shadowCasters;
   vk::Buffer frameState;
   vk::Buffer volumeState;
   vk::Buffer uniforms;  // per slot: frame, fog curve, volumes

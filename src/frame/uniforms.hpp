@@ -18,6 +18,7 @@ using ivec4 = glm::ivec4;
 using mat4 = glm::mat4;
 using uint = uint32_t;
 #include "interface/frame.glsl"
+#include "interface/shadow_map.glsl"
 #include "interface/sky_table.glsl"
 #include "interface/slices.glsl"
 #include "interface/transport.glsl"

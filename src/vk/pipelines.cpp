@@ -8,6 +8,8 @@
 #include "composite_vert_spv.h"
 #include "eye_slices_comp_spv.h"
 #include "light_slices_comp_spv.h"
+#include "shadow_map_comp_spv.h"
+#include "shadow_resolve_comp_spv.h"
 #include "sky_table_comp_spv.h"
 #include "transport_cells_comp_spv.h"
 #include "transport_depth_comp_spv.h"
@@ -120,7 +122,8 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
         binding(BIND_COMPOSITE_FOG_CURVE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
         binding(BIND_COMPOSITE_SKY_TABLE, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
         binding(BIND_COMPOSITE_SKY_PEAK, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
-        binding(BIND_COMPOSITE_SKY_MOMENTS, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)};
+        binding(BIND_COMPOSITE_SKY_MOMENTS, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
+        binding(BIND_COMPOSITE_SHADOW, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)};
     const std::array sky{binding(BIND_SKY_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
                          binding(BIND_SKY_MOMENTS, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
                          binding(BIND_SKY_TABLE_STORAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE),
@@ -137,6 +140,15 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
     transport[BIND_TRANSPORT_VIEW].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     transportSet_ = makeSetLayout(device_, transport);
     transportLayout_ = makeLayout(device_, transportSet_);
+    std::array<VkDescriptorSetLayoutBinding, SHADOW_BINDING_COUNT> shadow{};
+    for (uint32_t i = 0; i < SHADOW_BINDING_COUNT; ++i) {
+      shadow[i] = binding(i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+    }
+    shadow[BIND_SHADOW_VOLUME].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    shadow[BIND_SHADOW_SUMS].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    shadow[BIND_SHADOW_TARGET].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    shadowSet_ = makeSetLayout(device_, shadow);
+    shadowLayout_ = makeLayout(device_, shadowSet_);
     skySet_ = makeSetLayout(device_, sky);
     skyLayout_ = makeLayout(device_, skySet_);
     compositeSet_ = makeSetLayout(device_, composite);
@@ -164,6 +176,8 @@ void Pipelines::destroy() {
   vk.DestroySampler(device, nearest_, nullptr);
   vk.DestroyPipelineLayout(device, skyLayout_, nullptr);
   vk.DestroyDescriptorSetLayout(device, skySet_, nullptr);
+  vk.DestroyPipelineLayout(device, shadowLayout_, nullptr);
+  vk.DestroyDescriptorSetLayout(device, shadowSet_, nullptr);
   vk.DestroyPipelineLayout(device, transportLayout_, nullptr);
   vk.DestroyDescriptorSetLayout(device, transportSet_, nullptr);
   vk.DestroyPipelineLayout(device, volumeLayout_, nullptr);
@@ -211,6 +225,10 @@ Pipelines::Compute Pipelines::computeOf(Pass pass) const {
       return {transport_restrict_comp_spv, transportLayout_};
     case Pass::TransportSource:
       return {transport_source_comp_spv, transportLayout_};
+    case Pass::ShadowMap:
+      return {shadow_map_comp_spv, shadowLayout_};
+    case Pass::ShadowResolve:
+      return {shadow_resolve_comp_spv, shadowLayout_};
     case Pass::TransportView:
       return {transport_view_comp_spv, transportLayout_};
     default:

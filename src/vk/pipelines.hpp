@@ -25,10 +25,12 @@ enum class Pass : uint32_t {
   TransportExtrapolate,
   TransportRestrict,
   TransportSource,
-  TransportView
+  TransportView,
+  ShadowMap,
+  ShadowResolve
 };
 
-constexpr uint32_t MAX_CONSTANTS = 12;
+constexpr uint32_t MAX_CONSTANTS = 13;
 
 // Values of constant_id 0, 1, 2, ... of the pass; booleans are 0 or 1.
 struct PipelineKey {
@@ -67,7 +69,8 @@ enum CompositeBinding : uint32_t {
   BIND_COMPOSITE_SKY_TABLE = 8,
   BIND_COMPOSITE_SKY_PEAK = 9,
   BIND_COMPOSITE_SKY_MOMENTS = 10,
-  COMPOSITE_BINDING_COUNT = 11
+  BIND_COMPOSITE_SHADOW = 11,
+  COMPOSITE_BINDING_COUNT = 12
 };
 enum SkyTableBinding : uint32_t {
   BIND_SKY_FRAME = 0,
@@ -88,6 +91,14 @@ enum TransportBinding : uint32_t {
   TRANSPORT_BINDING_COUNT = 10
 };
 
+enum ShadowBinding : uint32_t {
+  BIND_SHADOW_VOLUME = 0,
+  BIND_SHADOW_SUMS = 1,
+  BIND_SHADOW_TARGET = 2,
+  BIND_SHADOW_FIELD0 = 3,
+  SHADOW_BINDING_COUNT = 7
+};
+
 class Pipelines {
  public:
   Pipelines(Device& device, std::pmr::memory_resource* host);
@@ -104,6 +115,8 @@ class Pipelines {
   VkDescriptorSetLayout compositeSetLayout() const { return compositeSet_; }
   VkDescriptorSetLayout skySetLayout() const { return skySet_; }
   VkDescriptorSetLayout transportSetLayout() const { return transportSet_; }
+  VkDescriptorSetLayout shadowSetLayout() const { return shadowSet_; }
+  VkPipelineLayout shadowLayout() const { return shadowLayout_; }
   VkPipelineLayout transportLayout() const { return transportLayout_; }
   VkPipelineLayout skyLayout() const { return skyLayout_; }
   VkPipelineLayout volumeLayout() const { return volumeLayout_; }
@@ -131,6 +144,8 @@ class Pipelines {
   VkDescriptorSetLayout compositeSet_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout skySet_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout transportSet_ = VK_NULL_HANDLE;
+  VkDescriptorSetLayout shadowSet_ = VK_NULL_HANDLE;
+  VkPipelineLayout shadowLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout transportLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout volumeLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout skyLayout_ = VK_NULL_HANDLE;
