@@ -24,7 +24,6 @@ namespace {
 
 using namespace bench;
 
-constexpr size_t CHILDREN = 3;  // processes per thread count
 constexpr const char* THREADS = "LP_NUM_THREADS=";
 
 struct Options {
@@ -33,7 +32,8 @@ struct Options {
   std::string docs;
   VolumeOptions volume;
   std::string from;
-  bool halfSky = false;  // a child that measures that alone
+  uint32_t children = 3;  // per number of threads
+  bool halfSky = false;   // a child that measures that alone
 };
 
 // The driver reads its thread count once, so that every one needs a process of its own.
@@ -78,7 +78,7 @@ Ordered runChild(const Options& options, uint32_t threads) {
 // Medians over processes that take turns.
 Ordered compareThreads(const Options& options) {
   std::array<std::vector<Ordered>, 2> runs;
-  for (size_t i = 0; i < CHILDREN; ++i) {
+  for (size_t i = 0; i < options.children; ++i) {
     for (uint32_t threads = 1; threads <= runs.size(); ++threads) {
       runs[threads - 1].push_back(runChild(options, threads));
     }
@@ -114,7 +114,9 @@ int run(const Options& options) {
     report = Ordered::parse(file);
     results = readVolumeJson(report);
   }
-  results.halfSky = compareThreads(options);
+  if (options.children > 0) {
+    results.halfSky = compareThreads(options);
+  }
   report["size"] = {options.volume.size, options.volume.size};
   report.update(volumeJson(results));
   writeJson(options.out, report);
@@ -134,7 +136,10 @@ int main(int argc, char** argv) {
   app.add_option("out", options.out, "JSON file to write")->required();
   app.add_option("--commit", options.commit, "what the report says was built");
   app.add_option("--docs", options.docs, "file whose volume-cost block is renewed");
-  app.add_option("--from", options.from, "results whose threads alone are measured anew");
+  app.add_option("--from", options.from, "results of which only the threads are measured anew");
+  app.add_option("--children", options.children,
+                 "processes with one and with two threads each, default 3; 0: threads not compared")
+      ->check(CLI::Range(0, 100));
   app.add_option("--case", options.volume.only, "the only one to run");
   app.add_option("--size", options.volume.size, "pixels along the picture's edge, default 512")
       ->check(CLI::Range(64, 4096));
