@@ -73,9 +73,9 @@ WlkVulkanDeviceInfo Gpu::info() const {
   return info;
 }
 
-GpuImage Gpu::makeImage(VkFormat format, VkExtent3D extent) {
+GpuImage Gpu::makeImage(VkFormat format, VkExtent3D extent, VkImageUsageFlags more) {
   const support::Image& made = images_.emplace_back(
-      device_, format, extent, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT);
+      device_, format, extent, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | more);
   GpuImage image{made.handle(), VK_NULL_HANDLE, format, extent};
   VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
   view.image = image.handle;
@@ -114,8 +114,12 @@ GpuBuffer Gpu::staging(VkDeviceSize size) {
 }
 
 void Gpu::upload(const GpuImage& image, std::span<const float> texels) {
-  const GpuBuffer buffer = staging(texels.size_bytes());
-  std::memcpy(buffer.data, texels.data(), texels.size_bytes());
+  uploadBytes(image, std::as_bytes(texels));
+}
+
+void Gpu::uploadBytes(const GpuImage& image, std::span<const std::byte> bytes) {
+  const GpuBuffer buffer = staging(bytes.size());
+  std::memcpy(buffer.data, bytes.data(), bytes.size());
   run([&](VkCommandBuffer commands) {
     const VkBufferImageCopy copy = wholeImage(image);
     vkCmdCopyBufferToImage(commands, buffer.handle, image.handle, VK_IMAGE_LAYOUT_GENERAL, 1,

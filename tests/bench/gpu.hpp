@@ -7,6 +7,7 @@
 #include <vulkan/vulkan.h>
 #include <welkin/welkin_vulkan.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -61,10 +62,13 @@ class Gpu {
   std::string driver() const;
   WlkVulkanDeviceInfo info() const;
 
-  // In layout GENERAL, where it stays; texels of 4 or 16 bytes.
-  GpuImage makeImage(VkFormat format, VkExtent3D extent);
+  // In layout GENERAL, where it stays. Sampled and stored to, and what else is asked for.
+  GpuImage makeImage(VkFormat format, VkExtent3D extent, VkImageUsageFlags more = 0);
   GpuBuffer makeBuffer(VkDeviceSize size, VkBufferUsageFlags usage);
+  // Of texels of 4 or 16 bytes.
   void upload(const GpuImage& image, std::span<const float> texels);
+  // Any texels.
+  void uploadBytes(const GpuImage& image, std::span<const std::byte> bytes);
   std::vector<float> download(const GpuImage& image);
 
   // Records, submits, waits; the time between the first and the last command.

@@ -1,0 +1,430 @@
+// SPDX-License-Identifier: MIT
+#include "bench/volume_study.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <numeric>
+
+#include "bench/front_timing.hpp"
+#include "bench/volume_bare.hpp"
+#include "bench/volume_march.hpp"
+#include "bench/volume_slicer.hpp"
+#include "bench/volume_welkin.hpp"
+
+namespace bench {
+namespace {
+
+constexpr size_t WARM_UPS = 2;
+constexpr uint32_t CPU_THREADS = 2;
+constexpr double LIGHT_DEG = 45;  // of the scaling studies
+constexpr uint32_t LIGHT_SIZE = 256;
+constexpr uint32_t SLICES = 128;
+constexpr uint32_t SMALL = 256;  // pixels, where the size is not what is studied
+
+struct Setting {
+  uint32_t slices;
+  uint32_t lightSize;
+};
+// As the quality levels pair them, and one before.
+constexpr std::array<Setting, 5> SLICED{{{16, 96}, {32, 96}, {64, 160}, {128, 256}, {256, 448}}};
+constexpr std::array<Setting, 2> BARE{{{128, 256}, {256, 448}}};
+constexpr std::array<Setting, 3> CPU{{{64, 160}, {128, 256}, {256, 448}}};
+
+// One way to draw and what is known of it.
+struct Method {
+  VolumeRow row{};
+  RenderFrame frame;
+  std::function<std::vector<float>()> picture;  // after a frame; empty: no picture
+  std::function<void()> finish;                 // fills in counts
+};
+
+class CaseStudy {
+ public:
+  CaseStudy(Gpu& gpu, const VolumeCase& one, const VolumeOptions& options)
+      : gpu_(gpu), options_(options), one_(one), cloud_(makeCloud(one.occupied)) {
+    toLight_ = cloudLight(one.light_deg);
+    target_ = gpu.makeImage(VK_FORMAT_R32G32B32A32_SFLOAT, {options.size, options.size, 1},
+                            VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
+    density_ = uploadCloud(gpu, cloud_);
+    truth_ = cloudTruth(cloud_, toLight_, options.size, options.truth);
+    for (const Setting& setting : SLICED) {
+      addWelkin(setting);
+    }
+    for (const Setting& setting : SLICED) {
+      addSlicer(setting);
+    }
+    for (const Setting& setting : BARE) {
+      addBare(setting);
+    }
+    for (const Setting& setting : CPU) {
+      addCpu(setting);
+    }
+  }
+
+  VolumeStudy run() {
+    std::vector<Copies> copies;
+    for (const Method& method : methods_) {
+      copies.push_back({method.frame});
+    }
+    const std::vector<Timing> timings = interleave(copies, 0, WARM_UPS, options_.rounds);
+    VolumeStudy study{one_, cloud_.occupied, cloud_.meanDepth, {}};
+    for (size_t i = 0; i < methods_.size(); ++i) {
+      Method& method = methods_[i];
+      method.row.time_ms = timings[i].wall;
+      method.row.deviation_ms = timings[i].wallDeviation;
+      method.row.cpu_ms = timings[i].cpu;
+      method.row.error = -1;
+      if (method.picture) {
+        method.frame();
+        const std::vector<float> picture = method.picture();
+        method.row.error = cloudError(truth_, picture, options_.size);
+        method.row.bias = cloudBias(truth_, picture, options_.size);
+      }
+      method.finish();
+      study.rows.push_back(method.row);
+    }
+    return study;
+  }
+
+ private:
+  Method& add(const char* name, const Setting& setting) {
+    methods_.emplace_back();
+    Method& method = methods_.back();
+    method.row.method = name;
+    method.row.slices = setting.slices;
+    method.row.lightSize = setting.lightSize;
+    method.row.samples = eyeSamples(toLight_, options_.size, setting.slices);
+    method.finish = [] {};
+    return method;
+  }
+
+  void addWelkin(const Setting& setting) {
+    WelkinVolumeOptions options;
+    options.slices = setting.slices;
+    options.lightSize = setting.lightSize;
+    welkins_.push_back(std::make_unique<WelkinVolume>(gpu_, target_, &cloud_, toLight_, options));
+    WelkinVolume* welkin = welkins_.back().get();
+    auto times = std::make_shared<std::array<std::vector<double>, 2>>();
+    Method& method = add("welkin", setting);
+    method.frame = [this, welkin, times] {
+      const double spent = gpu_.run([&](VkCommandBuffer c) { welkin->record(c); });
+      for (const auto& [name, time] : welkin->counts().passes_ms) {
+        if (time > 0 && (name == "eye slices" || name == "light slices")) {
+          (*times)[name == "eye slices" ? 0 : 1].push_back(time);
+        }
+      }
+      return spent;
+    };
+    method.picture = [this] { return gpu_.download(target_); };
+    const size_t index = methods_.size() - 1;
+    method.finish = [this, index, welkin, times] {
+      VolumeRow& row = methods_[index].row;
+      const GpuCounts counts = welkin->counts();
+      row.eye_ms = medianOf((*times)[0]);
+      row.light_ms = medianOf((*times)[1]);
+      row.invocations = counts.invocations;
+      row.commands = counts.dispatches;
+    };
+  }
+
+  void addSlicer(const Setting& setting) {
+    slicers_.push_back(std::make_unique<Slicer>(gpu_, density_, target_, toLight_, setting.slices,
+                                                setting.lightSize));
+    Slicer* slicer = slicers_.back().get();
+    Method& method = add("slicer", setting);
+    method.row.samples = 0;  // its slabs lie otherwise
+    method.frame = [this, slicer] {
+      return gpu_.run([&](VkCommandBuffer c) { slicer->record(c); });
+    };
+    method.picture = [this] { return gpu_.download(target_); };
+    const size_t index = methods_.size() - 1;
+    method.finish = [this, index, slicer] { methods_[index].row.commands = slicer->draws(); };
+  }
+
+  void addBare(const Setting& setting) {
+    bares_.push_back(std::make_unique<BareLoop>(gpu_, density_, target_, toLight_, setting.slices,
+                                                setting.lightSize));
+    BareLoop* bare = bares_.back().get();
+    auto times = std::make_shared<std::vector<double>>();
+    Method& method = add("bare", setting);
+    method.frame = [this, bare, times] {
+      times->push_back(gpu_.run([&](VkCommandBuffer c) { bare->record(c); }));
+      return times->back();
+    };
+    const size_t index = methods_.size() - 1;
+    method.finish = [this, index, times] {
+      methods_[index].row.eye_ms = medianOf(*times);
+      methods_[index].row.commands = 1;
+    };
+  }
+
+  void addCpu(const Setting& setting) {
+    if (!marchRuns()) {
+      return;
+    }
+    marches_.push_back(std::make_unique<CloudMarch>(cloud_, toLight_, options_.size, setting.slices,
+                                                    setting.lightSize, CPU_THREADS));
+    CloudMarch* march = marches_.back().get();
+    Method& method = add("cpu", setting);
+    method.frame = [march] {
+      march->render();
+      return 0.0;
+    };
+    method.picture = [march] { return march->picture(); };
+  }
+
+  Gpu& gpu_;
+  VolumeOptions options_;
+  VolumeCase one_;
+  Cloud cloud_;
+  Vec3 toLight_;
+  GpuImage target_;
+  GpuImage density_;
+  CloudTruth truth_;
+  std::vector<std::unique_ptr<WelkinVolume>> welkins_;
+  std::vector<std::unique_ptr<Slicer>> slicers_;
+  std::vector<std::unique_ptr<BareLoop>> bares_;
+  std::vector<std::unique_ptr<CloudMarch>> marches_;
+  std::vector<Method> methods_;
+};
+
+// Points that no other of the method beats, slowest first.
+std::vector<const VolumeRow*> frontOf(const std::vector<VolumeRow>& rows, const std::string& method,
+                                      double VolumeRow::*time) {
+  std::vector<const VolumeRow*> front;
+  for (const VolumeRow& row : rows) {
+    if (row.method == method) {
+      front.push_back(&row);
+    }
+  }
+  std::erase_if(front, [&, all = front](const VolumeRow* row) {
+    return std::any_of(all.begin(), all.end(), [&](const VolumeRow* other) {
+      return other != row && other->error <= row->error && other->*time <= row->*time;
+    });
+  });
+  std::sort(front.begin(), front.end(),
+            [](const VolumeRow* a, const VolumeRow* b) { return a->error < b->error; });
+  return front;
+}
+
+GpuImage makeTarget(Gpu& gpu, uint32_t size) {
+  return gpu.makeImage(VK_FORMAT_R32G32B32A32_SFLOAT, {size, size, 1});
+}
+
+// A point of a scaling study.
+struct Point {
+  double x;
+  uint32_t size;
+  uint32_t slices;
+  double occupied;
+};
+
+Scaling scale(const char* what, const std::vector<Point>& points, uint32_t rounds) {
+  Gpu gpu;
+  Scaling scaling{what, {}, {}, {}, {}};
+  std::vector<std::unique_ptr<WelkinVolume>> frames;
+  std::vector<Copies> copies;
+  for (const Point& point : points) {
+    const Cloud cloud = makeCloud(point.occupied);
+    WelkinVolumeOptions options;
+    options.slices = point.slices;
+    options.lightSize = LIGHT_SIZE;
+    frames.push_back(std::make_unique<WelkinVolume>(gpu, makeTarget(gpu, point.size), &cloud,
+                                                    cloudLight(LIGHT_DEG), options));
+    WelkinVolume* frame = frames.back().get();
+    copies.push_back(
+        {[&gpu, frame] { return gpu.run([&](VkCommandBuffer c) { frame->record(c); }); }});
+    scaling.x.push_back(point.x < 0 ? cloud.occupied * 512 : point.x);
+  }
+  const std::vector<Timing> timings = interleave(copies, 0, WARM_UPS, rounds);
+  for (size_t i = 0; i < points.size(); ++i) {
+    scaling.time_ms.push_back(timings[i].wall);
+    scaling.cpu_ms.push_back(timings[i].cpu);
+    scaling.invocations.push_back(static_cast<double>(frames[i]->counts().invocations));
+  }
+  return scaling;
+}
+
+// CPU time of every thread of this process so far, by its number.
+std::map<std::string, double> threadTimes_ms() {
+  std::map<std::string, double> times;
+  for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::ifstream file(thread.path() / "schedstat");
+    double running_ns = 0;
+    if (file >> running_ns) {
+      times[thread.path().filename()] = 1e-6 * running_ns;
+    }
+  }
+  return times;
+}
+
+Ordered commandsOf(const WelkinVolume& frame, size_t view) {
+  Ordered result = Ordered::object();
+  for (const auto& [name, count] : frame.commands(view)) {
+    result[name] = result.contains(name) ? result[name].get<uint32_t>() + count : count;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<VolumeStudy> studyVolumes(const VolumeOptions& options, Ordered& device) {
+  std::vector<VolumeStudy> studies;
+  for (const VolumeCase& one : volumeCases()) {
+    if (!options.only.empty() && one.name != options.only) {
+      continue;
+    }
+    Gpu gpu(options.validation);
+    device = {{"name", gpu.properties().deviceName}, {"driver", gpu.driver()}};
+    CaseStudy study(gpu, one, options);
+    studies.push_back(study.run());
+    std::fprintf(stderr, "%s measured\n", one.name.c_str());
+    for (const std::string& message : gpu.messages()) {
+      std::fprintf(stderr, "%s\n", message.c_str());
+    }
+  }
+  return studies;
+}
+
+double timeAtError(const std::vector<VolumeRow>& rows, const std::string& method, double error,
+                   double VolumeRow::*time) {
+  const std::vector<const VolumeRow*> front = frontOf(rows, method, time);
+  constexpr double ROUNDING = 1e-9;
+  for (size_t i = 0; i + 1 < front.size(); ++i) {
+    const VolumeRow& a = *front[i];
+    const VolumeRow& b = *front[i + 1];
+    if (error >= a.error * (1 - ROUNDING) && error <= b.error * (1 + ROUNDING)) {
+      const double at = std::log(error / a.error) / std::log(b.error / a.error);
+      return std::exp((1 - at) * std::log(a.*time) + at * std::log(b.*time));
+    }
+  }
+  return -1;
+}
+
+std::vector<double> commonErrors(const std::vector<VolumeRow>& rows) {
+  double low = 0;
+  double high = 1e30;
+  for (const char* method : {"welkin", "slicer"}) {
+    const auto front = frontOf(rows, method, &VolumeRow::time_ms);
+    if (front.size() < 2) {
+      return {};
+    }
+    low = std::max(low, front.front()->error);
+    high = std::min(high, front.back()->error);
+  }
+  if (!(low < high)) {
+    return {};
+  }
+  return {high, std::sqrt(low * high), low};
+}
+
+Fit fitLine(const std::vector<double>& x, const std::vector<double>& y) {
+  const auto line = [](const std::vector<double>& a, const std::vector<double>& b) {
+    const auto n = static_cast<double>(a.size());
+    const double meanA = std::accumulate(a.begin(), a.end(), 0.0) / n;
+    const double meanB = std::accumulate(b.begin(), b.end(), 0.0) / n;
+    double ab = 0;
+    double aa = 0;
+    double bb = 0;
+    for (size_t i = 0; i < a.size(); ++i) {
+      ab += (a[i] - meanA) * (b[i] - meanB);
+      aa += (a[i] - meanA) * (a[i] - meanA);
+      bb += (b[i] - meanB) * (b[i] - meanB);
+    }
+    const double slope = ab / aa;
+    return std::array<double, 3>{meanB - slope * meanA, slope, bb > 0 ? ab * ab / (aa * bb) : 1.0};
+  };
+  const auto logarithms = [](std::vector<double> values) {
+    for (double& value : values) {
+      value = std::log(value);
+    }
+    return values;
+  };
+  const auto [offset, slope, explained] = line(x, y);
+  return {offset, slope, explained, line(logarithms(x), logarithms(y))[1]};
+}
+
+std::vector<Scaling> measureScaling(const VolumeOptions& options) {
+  std::vector<Point> pixels;
+  for (const uint32_t size : {192u, 256u, 384u, 512u}) {
+    pixels.push_back({1.0 * size * size, size, SLICES, 1});
+  }
+  std::vector<Point> slices;
+  for (const uint32_t count : {64u, 128u, 192u, 256u}) {  // whole batches
+    slices.push_back({1.0 * count, SMALL, count, 1});
+  }
+  std::vector<Point> bricks;
+  for (const double occupied : {0.05, 0.2, 0.5, 1.0}) {
+    bricks.push_back({-1, SMALL, SLICES, occupied});
+  }
+  return {scale("pixels", pixels, options.rounds), scale("slices", slices, options.rounds),
+          scale("occupied bricks", bricks, options.rounds)};
+}
+
+Ordered measureSkips(const VolumeOptions& options) {
+  Gpu gpu(options.validation);
+  const Vec3 toLight = cloudLight(LIGHT_DEG);
+  const Cloud cloud = makeCloud(1);
+  Ordered result = Ordered::object();
+  struct Kind {
+    const char* name;
+    const Cloud* cloud;
+    bool empty;
+    uint32_t views;
+  };
+  for (const Kind& kind :
+       {Kind{"noVolume", nullptr, false, 1}, Kind{"emptyVolume", nullptr, true, 1},
+        Kind{"cloud", &cloud, false, 1}, Kind{"cloudAndEmptyVolume", &cloud, true, 1},
+        Kind{"twoViews", &cloud, false, 2}}) {
+    WelkinVolumeOptions wanted;
+    wanted.slices = SLICES;
+    wanted.lightSize = LIGHT_SIZE;
+    wanted.emptyVolume = kind.empty;
+    wanted.views = kind.views;
+    WelkinVolume frame(gpu, makeTarget(gpu, 64), kind.cloud, toLight, wanted);
+    for (int i = 0; i < 2; ++i) {
+      gpu.run([&](VkCommandBuffer c) { frame.record(c); });
+    }
+    Ordered& entry = result[kind.name];
+    for (uint32_t view = 0; view < kind.views; ++view) {
+      entry.push_back(
+          {{"dispatches", frame.counts(view).dispatches}, {"commands", commandsOf(frame, view)}});
+    }
+  }
+  return result;
+}
+
+Ordered measureHalfSky(const VolumeOptions& options) {
+  Gpu gpu;
+  const Cloud cloud = makeCloud(1);
+  WelkinVolumeOptions wanted;
+  wanted.underSky = true;
+  WelkinVolume frame(gpu, makeTarget(gpu, options.size), &cloud, cloudLight(LIGHT_DEG), wanted);
+  const RenderFrame render = [&] { return gpu.run([&](VkCommandBuffer c) { frame.record(c); }); };
+  for (size_t i = 0; i < WARM_UPS; ++i) {
+    render();
+  }
+  const auto before = threadTimes_ms();
+  const Timing timing = interleave({{render}}, 0, 1, options.rounds).front();
+  std::vector<double> spent;
+  for (const auto& [thread, time] : threadTimes_ms()) {
+    const auto old = before.find(thread);
+    spent.push_back(time - (old == before.end() ? 0.0 : old->second));
+  }
+  // The two that work most work at once, all else by itself.
+  std::sort(spent.rbegin(), spent.rend());
+  const double sum = std::accumulate(spent.begin(), spent.end(), 0.0);
+  const double shared = spent.size() > 1 ? spent[1] : 0.0;
+  return {{"time_ms", timing.wall},
+          {"timeMad_ms", timing.wallDeviation},
+          {"cpu_ms", timing.cpu},
+          {"cpuOverLongest", sum / (sum - shared)}};
+}
+
+}  // namespace bench
