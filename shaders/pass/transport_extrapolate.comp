@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Light of the two finest levels, each solved by itself, extrapolated to cells of no size: the error
-// of a level goes with the edge of its cells (docs/models.md). On level 1: keeps what it found.
+// Light of the two finest levels, each solved by itself, extrapolated to cells of no size: errors
+// go with the edge of the cells (docs/models.md). On level 1: keeps what it found.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "transport.glsl"
@@ -8,7 +8,7 @@
 layout(local_size_x = 64) in;
 
 const int TERMS = 2 * FIRST_TERMS + TRANSPORT_TERMS;
-// The step beyond the finest level, in steps from the coarser to it; at most this part of the light.
+// Step beyond the finest level, in steps from the coarser to it; at most this part of the light.
 const float STEP = 1.0f;
 const float MOST = 0.9f;
 

@@ -9,7 +9,7 @@
 
 layout(local_size_x = 64) in;
 
-// (1 - e^-t) / t, and what a source that grows by 1 along the slab adds to the radiance that leaves:
+// (1 - e^-t) / t, and what a source that grows by 1 along the slab adds to what leaves it:
 // (1 + e^-t) / 2 less the former.
 vec2 slabWeights(float t, float e) {
   float mean = t > 1.0e-2f ? (1.0f - e) / t : 1.0f - t * (0.5f - t * (1.0f / 6.0f));

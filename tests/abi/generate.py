@@ -61,6 +61,18 @@ def structs(text):
         yield name, fields
 
 
+def joined(text):
+    """Values side by side where they fit into a line."""
+    lines = []
+    for line in text.splitlines():
+        if lines and line.startswith("VALUE") and lines[-1].startswith("VALUE") and \
+                len(lines[-1]) + 1 + len(line) <= 100:
+            lines[-1] += " " + line
+        else:
+            lines.append(line)
+    return "\n".join(lines) + "\n"
+
+
 def layout(text):
     """Asserts, with the numbers that a small C program prints."""
     lines = ['#include <stddef.h>', '#include <stdio.h>', '#include <welkin/welkin_vulkan.h>',
@@ -81,7 +93,7 @@ def layout(text):
         source.write_text("\n".join(lines))
         program = pathlib.Path(folder) / "print"
         subprocess.run(["gcc", "-std=c11", f"-I{INCLUDE}", source, "-o", program], check=True)
-        return subprocess.run([program], check=True, capture_output=True, text=True).stdout
+        return joined(subprocess.run([program], check=True, capture_output=True, text=True).stdout)
 
 
 def main():
