@@ -101,20 +101,27 @@ std::string slabTable(const Ordered& rows) {
       "| slabs | views | median, % | 90th percentile, % | worst, % | worst case |\n"
       "|---|---|---|---|---|---|\n";
   for (const Column& column : COLUMNS) {
-    std::vector<std::pair<double, std::string>> errors;
-    for (const Ordered* row : rowsOf(rows, "slab", column)) {
-      errors.emplace_back(100 * std::fabs(row->at("total").get<double>() - 1), row->at("case"));
+    for (const std::string phase : {"hg", "droplets"}) {
+      const std::string start = "slab-" + phase + "-";
+      std::vector<std::pair<double, std::string>> errors;
+      for (const Ordered* row : rowsOf(rows, "slab", column)) {
+        const std::string name = row->at("case");
+        if (name.rfind(start, 0) == 0) {
+          errors.emplace_back(100 * std::fabs(row->at("total").get<double>() - 1),
+                              name.substr(start.size()));
+        }
+      }
+      if (errors.empty()) {
+        continue;
+      }
+      std::sort(errors.begin(), errors.end());
+      const size_t last = errors.size() - 1;
+      const auto at = [&](size_t percent) { return errors[(last * percent + 50) / 100].first; };
+      text += std::string("| ") + column.form + ", " + column.level + ", " + phase + " | " +
+              std::to_string(errors.size()) +
+              format(" | %.1f | %.1f | %.1f | ", at(50), at(90), errors[last].first) +
+              errors[last].second + " |\n";
     }
-    if (errors.empty()) {
-      continue;
-    }
-    std::sort(errors.begin(), errors.end());
-    const size_t last = errors.size() - 1;
-    const auto at = [&](size_t percent) { return errors[(last * percent + 50) / 100].first; };
-    text += std::string("| ") + column.form + ", " + column.level + " | " +
-            std::to_string(errors.size()) +
-            format(" | %.1f | %.1f | %.1f | ", at(50), at(90), errors[last].first) +
-            errors[last].second.substr(5) + " |\n";
   }
   return text;
 }
