@@ -3,6 +3,7 @@
  * Layout of the C API on x86-64: compiling this file is the test. Written by generate.py; a
  * difference here is an ABI break unless a structure only grew at its end.
  */
+/* clang-format off */
 #include <stddef.h>
 #include <welkin/welkin_vulkan.h>
 

@@ -117,7 +117,7 @@ TEST(GovernedView, ARungIsThePictureOfItsNumbers) {
   // own: a millionth of a texel's difference of light.
   constexpr double BOUND = 1e-5;
   for (const uint32_t scattering : {WLK_SCATTERING_FORWARD, WLK_SCATTERING_ALL_ORDERS}) {
-    const uint32_t level = WLK_QUALITY_HIGH;
+    const uint32_t level = WLK_QUALITY_MEDIUM;
     GovernedScene governed(test::governed(WLK_CONTROL_REPORTED_TIME, level, scattering));
     std::map<uint32_t, std::pair<WlkQualityState, Image>> rungs;
     WlkQualityState now = governed.state();
@@ -141,7 +141,7 @@ TEST(GovernedView, ARungIsThePictureOfItsNumbers) {
       const Image own = asked.scene.read();
       EXPECT_LE(relativeRms(what.second, own), BOUND) << rung;
     }
-    EXPECT_GE(rungs.size(), 4u);
+    EXPECT_GE(rungs.size(), 3u);
     EXPECT_FALSE(rungs.begin()->second.second == rungs.rbegin()->second.second);
   }
 }
