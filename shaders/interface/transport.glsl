@@ -5,7 +5,7 @@
 // across its main axis; ray (i, j) stands at (i + k u, j + k v) in slice k, modulo the grid's size:
 // one that leaves through a side goes on as a ray that enters through the opposite one.
 const int TRANSPORT_LEVELS = 4;
-const int TRANSPORT_DIRECTIONS = 50;         // at most, on the finest level
+const int TRANSPORT_DIRECTIONS = 50;         // at most, on the two finest levels
 const int TRANSPORT_COARSE_DIRECTIONS = 26;  // the first of them: on all others
 // Real spherical harmonics of degree < 4 around the direction in which light travels: Y(l, m) is
 // number l l + l + m, mean square 1.

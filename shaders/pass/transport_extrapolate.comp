@@ -8,8 +8,9 @@
 layout(local_size_x = 64) in;
 
 const int TERMS = 2 * FIRST_TERMS + TRANSPORT_TERMS;
+// Errors of first order would ask for a step of 1, of second order for 1/3.
 // Step beyond the finest level, in steps from the coarser to it; at most this part of the light.
-const float STEP = 1.0f;
+const float STEP = 0.5f;
 const float MOST = 0.9f;
 
 int termAt(int term, int level, int cell) {

@@ -261,7 +261,7 @@ TEST_F(VolumeLight, LosesNoEnergy) {
     double excess;
   };
   for (const auto& [cells, depth, excess] :
-       {Case{16, 0.5, 0.014}, {16, 4.0, 0.065}, {32, 4.0, 0.026}, {32, 16.0, 0.02}}) {
+       {Case{16, 0.5, 0.0145}, {16, 4.0, 0.076}, {32, 4.0, 0.025}, {32, 16.0, 0.07}}) {
     setScattering(WLK_SCATTERING_ALL_ORDERS, 0, cells);
     const WlkVolume volume = box(of, depth);
     double power = 0;
