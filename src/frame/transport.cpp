@@ -18,8 +18,8 @@ constexpr int DIRECTIONS = interface_::TRANSPORT_DIRECTIONS;
 constexpr int TERMS = interface_::TRANSPORT_TERMS;
 
 constexpr int COARSE = interface_::TRANSPORT_COARSE_DIRECTIONS;
-// Grids of more cells take all directions on the two finest levels. With 26 a cube of optical depth 4
-// gives back 1.057 of its light, with 50 1.021, with 150 1.018 (double prototype, 16^3 cells).
+// Grids of more cells take all directions on the two finest levels. With 26 a cube of optical depth
+// 4 gives back 1.057 of its light, with 50 1.021, with 150 1.018 (double prototype, 16^3 cells).
 constexpr uint32_t FINE_CELLS = 20 * 20 * 20;
 
 struct Quadrature {
