@@ -224,6 +224,12 @@ void WlkContext_T::forgetBindings() {
         for (BoundSet& set : slot.volumes) {
           set.bound = {};
         }
+        for (BoundSet& set : slot.transport) {
+          set.bound = {};
+        }
+      }
+      for (BoundSet& set : view->resources.shadow.resources.sets) {
+        set.bound = {};
       }
     }
   }
