@@ -158,15 +158,8 @@ void renderHeadless(WlkContext_T& c, ViewState& view, const WlkHeadlessTargets& 
   if (images.target1) {
     readTarget(vk, commands, view, r.target1, pixels * 16);
   }
-  VkMemoryBarrier2 toHost{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-  toHost.srcStageMask = VK_PIPELINE_STAGE_2_TRANSFER_BIT;
-  toHost.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-  toHost.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
-  toHost.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
-  VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-  dependency.memoryBarrierCount = 1;
-  dependency.pMemoryBarriers = &toHost;
-  vk.CmdPipelineBarrier2(commands, &dependency);
+  memoryBarrier(vk, commands, {VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
+                {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
   c.headless->submitAndWait();
   r.rendered = true;
   c.completedFrame = c.frameIndex;

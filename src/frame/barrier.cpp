@@ -23,4 +23,17 @@ void imageBarrier(const vk::Dispatch& vk, VkCommandBuffer commands, VkImage imag
   vk.CmdPipelineBarrier2(commands, &info);
 }
 
+void memoryBarrier(const vk::Dispatch& vk, VkCommandBuffer commands, const Access& from,
+                   const Access& to) {
+  VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+  memory.srcStageMask = from.stages;
+  memory.srcAccessMask = from.access;
+  memory.dstStageMask = to.stages;
+  memory.dstAccessMask = to.access;
+  VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+  info.memoryBarrierCount = 1;
+  info.pMemoryBarriers = &memory;
+  vk.CmdPipelineBarrier2(commands, &info);
+}
+
 }  // namespace welkin

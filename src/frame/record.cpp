@@ -444,15 +444,7 @@ class Recorder {
 
   void barrier(VkPipelineStageFlags2 fromStage, VkAccessFlags2 fromAccess,
                VkPipelineStageFlags2 toStage, VkAccessFlags2 toAccess) {
-    VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-    memory.srcStageMask = fromStage;
-    memory.srcAccessMask = fromAccess;
-    memory.dstStageMask = toStage;
-    memory.dstAccessMask = toAccess;
-    VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    info.memoryBarrierCount = 1;
-    info.pMemoryBarriers = &memory;
-    vk_.CmdPipelineBarrier2(commands_, &info);
+    memoryBarrier(vk_, commands_, {fromStage, fromAccess}, {toStage, toAccess});
     view_.record.stats.barriers += 1;
   }
 

@@ -56,4 +56,13 @@ void imageBarrier(const vk::Dispatch& vk, VkCommandBuffer commands, VkImage imag
                   VkImageAspectFlags aspect, const WlkVulkanImageState& from,
                   const WlkVulkanImageState& to);
 
+/// Which stages a memory barrier separates, and the accesses it makes visible.
+struct Access {
+  VkPipelineStageFlags2 stages;
+  VkAccessFlags2 access;
+};
+
+void memoryBarrier(const vk::Dispatch& vk, VkCommandBuffer commands, const Access& from,
+                   const Access& to);
+
 }  // namespace welkin

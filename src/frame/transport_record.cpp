@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "frame/record.hpp"
 #include "frame/resources.hpp"
 
 namespace welkin {
@@ -101,16 +102,11 @@ class TransportRecorder {
     vk_.CmdDispatch(commands_, groups, rows, 1);
     result.dispatches += 1;
     result.invocations += uint64_t{groups} * GROUP * rows;
-    VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-    memory.srcStageMask = memory.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-    memory.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-    memory.dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
-                           VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
-                           VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
-    VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    info.memoryBarrierCount = 1;
-    info.pMemoryBarriers = &memory;
-    vk_.CmdPipelineBarrier2(commands_, &info);
+    constexpr VkAccessFlags2 WRITE = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+    constexpr VkAccessFlags2 READ =
+        VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+    memoryBarrier(vk_, commands_, {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, WRITE},
+                  {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, READ | WRITE});
     result.barriers += 1;
   }
 
