@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "frame/volume_record.hpp"
+
+#include <cstring>
+
+#include "frame/resources.hpp"
+#include "frame/sky_bindings.hpp"
+#include "frame/transport_record.hpp"
+
+namespace welkin {
+namespace {
+
+using interface_::FrameUniforms;
+using interface_::SliceConstants;
+using interface_::VolumeUniforms;
+
+vk::PipelineKey eyeKeyOf(const FrameCommands& c, const ViewTargets& targets,
+                         const PlannedVolume& planned) {
+  const Plan& plan = c.view.plan;
+  return eyeKey(
+      {plan.airKind(), plan.fog, planned.lit, static_cast<bool>(targets.depth), plan.allLight},
+      c.in.volumes[planned.index].state->fieldCount, c.quality);
+}
+
+class VolumeRecorder {
+ public:
+  VolumeRecorder(FrameCommands& commands, const ViewTargets& targets, const PlannedVolume& planned)
+      : c_(commands),
+        targets_(targets),
+        planned_(planned),
+        volume_(commands.in.volumes[planned.index]),
+        rank_(static_cast<uint32_t>(&planned - commands.view.plan.volumes.data())) {}
+
+  void run() {
+    WlkPassStats light = passStats("light slices", WLK_PASS_LIGHT_SLICES, planned_.id);
+    WlkPassStats eye = passStats("eye slices", WLK_PASS_EYE_SLICES, planned_.id);
+    light.reason = planned_.lightReason;
+    eye.reason = planned_.eyeReason;
+    if (c_.quality.transport) {
+      recordTransportLight();
+    }
+    if (planned_.drawn) {
+      recordBatches(light, eye);
+    }
+    passes().push_back(light);
+    passes().push_back(eye);
+  }
+
+ private:
+  std::pmr::vector<WlkPassStats>& passes() const { return c_.view.record.passes; }
+
+  void recordTransportLight() {
+    WlkPassStats stats = passStats("volume light", WLK_PASS_VOLUME_LIGHT, planned_.id);
+    stats.reason = planned_.lightReason;
+    if (planned_.drawn && planned_.lit) {
+      c_.orderShaders();
+      const TransportCommands made =
+          recordTransport(c_.device, c_.pipelines, c_.commands, c_.view, planned_, c_.in,
+                          c_.bindings, volumeOffset(), c_.quality.noSkip);
+      stats.reason = made.computed ? planned_.lightReason : uint32_t{WLK_REASON_UNCHANGED};
+      stats.recorded = 1;
+      stats.commands = made.dispatches;
+      stats.invocations = made.invocations;
+      c_.view.record.stats.dispatches += made.dispatches;
+      c_.view.record.stats.barriers += made.barriers;
+      c_.timestamp(static_cast<uint32_t>(passes().size()));
+    }
+    passes().push_back(stats);
+  }
+
+  void recordBatches(WlkPassStats& light, WlkPassStats& eye) {
+    const auto lightIndex = static_cast<uint32_t>(passes().size());
+    const SliceQuality& quality = c_.quality;
+    const VkPipelineLayout layout = c_.pipelines.volumeLayout();
+    const bool first = rank_ == 0;
+    PlannedVolume covered = planned_;
+    if (first) {
+      covered.rect = c_.view.plan.volumeRect;  // its first batch also clears the union
+    }
+    bind(covered);
+    const VkPipeline eyePipeline = c_.find(eyeKeyOf(c_, targets_, planned_));
+    const VkPipeline lightPipeline =
+        c_.find(lightKey(volume_.state->fieldCount, quality.forwardScattering));
+    for (uint32_t slab = 0; slab < quality.sliceCount; slab += quality.batchSize) {
+      SliceConstants push{};
+      push.firstSlab = slab;
+      push.slabCount = quality.batchSize;  // a last batch past the end finds nothing to march
+      push.lightSize = quality.lightSize;
+      push.flags =
+          (slab == 0 ? interface_::SLICE_FIRST_BATCH : 0) |
+          (slab + quality.batchSize >= quality.sliceCount ? interface_::SLICE_LAST_BATCH : 0) |
+          (first ? interface_::SLICE_FIRST_VOLUME : 0);
+      if (planned_.lit) {
+        c_.orderShaders();
+        c_.dispatch(lightPipeline, layout, &push, groups(quality.lightSize),
+                    groups(quality.lightSize), light, lightIndex);
+      }
+      c_.orderShaders();
+      c_.dispatch(eyePipeline, layout, &push, groups(covered.rect.x1 - covered.rect.x0),
+                  groups(covered.rect.y1 - covered.rect.y0), eye, lightIndex + 1);
+    }
+  }
+
+  VkDeviceSize volumeOffset() const {
+    const ViewResources& r = c_.view.resources;
+    return (c_.in.slot + 1) * r.slotStride - (r.volumeCapacity - rank_) * r.volumeStride;
+  }
+
+  void bind(const PlannedVolume& covered) {
+    const ViewResources& r = c_.view.resources;
+    BoundSet& set = c_.slot.volumes[rank_];
+    const VkDeviceSize base = c_.in.slot * r.slotStride;
+    const VkDeviceSize offset = volumeOffset();
+    VolumeUniforms uniforms;
+    const double* position = c_.view.camera.position;
+    fillVolume(*volume_.state, covered, {position[0], position[1], position[2]}, c_.quality,
+               uniforms);
+    std::memcpy(static_cast<char*>(r.uniforms.data()) + offset, &uniforms, sizeof uniforms);
+
+    Bindings& b = c_.bindings;
+    b.buffer(set, vk::BIND_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(), base,
+             sizeof(FrameUniforms));
+    b.buffer(set, vk::BIND_VOLUME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(), offset,
+             sizeof(VolumeUniforms));
+    b.image(set, vk::BIND_LIGHT_STORAGE, r.lightBuffer.view(), VK_NULL_HANDLE,
+            VK_IMAGE_LAYOUT_GENERAL);
+    b.image(set, vk::BIND_LIGHT_SAMPLED, r.lightBuffer.view(), c_.pipelines.linear(),
+            VK_IMAGE_LAYOUT_GENERAL);
+    bindFields(set);
+    b.image(set, vk::BIND_TABLE, volume_.state->tables[c_.quality.form()].image.view(),
+            c_.pipelines.linear(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    b.buffer(set, vk::BIND_FOG_CURVE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, r.uniforms.handle(),
+             base + r.fogOffset, FOG_CURVE_BYTES);
+    b.image(set, vk::BIND_DEPTH, targets_.depth ? targets_.depth.view : c_.in.dummy2d,
+            c_.pipelines.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    bindSkyLookup(b, c_.pipelines, r, set, {vk::BIND_SKY_TABLE, vk::BIND_SKY_PEAK}, c_.in);
+    b.image(set, vk::BIND_VIEW_SOURCE, r.viewSource ? r.viewSource.view() : c_.in.dummy3d,
+            c_.pipelines.linear(),
+            r.viewSource ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    const vk::Buffer& volumeState = r.volumeState ? r.volumeState : r.frameState;
+    b.buffer(set, vk::BIND_FRAME_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, r.frameState.handle(), 0,
+             r.frameState.size());
+    b.buffer(set, vk::BIND_VOLUME_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, volumeState.handle(), 0,
+             volumeState.size());
+    c_.vk.CmdBindDescriptorSets(c_.commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+                                c_.pipelines.volumeLayout(), 0, 1, &set.set, 0, nullptr);
+  }
+
+  void bindFields(BoundSet& set) {
+    for (uint32_t i = 0; i < WLK_MAX_FIELDS; ++i) {
+      VkImageView view = c_.in.dummy3d;
+      if (i < volume_.state->fieldCount) {
+        const FieldState& field = volume_.state->fields[i];
+        if (field.external) {
+          view = volume_.externalViews[i];
+        } else if (field.image) {
+          view = field.image.view();
+        }
+      }
+      c_.bindings.image(set, vk::BIND_FIELD0 + i, view, c_.pipelines.linear(),
+                        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    }
+  }
+
+  FrameCommands& c_;
+  const ViewTargets& targets_;
+  const PlannedVolume& planned_;
+  const RecordVolume& volume_;
+  uint32_t rank_;
+};
+
+}  // namespace
+
+void findVolumePipelines(const FrameCommands& commands, const ViewTargets& targets,
+                         const PlannedVolume& planned) {
+  if (!planned.drawn) {
+    return;
+  }
+  commands.find(eyeKeyOf(commands, targets, planned));
+  const uint32_t fields = commands.in.volumes[planned.index].state->fieldCount;
+  commands.find(lightKey(fields, commands.quality.forwardScattering));
+  for (const vk::Pass pass : TRANSPORT_PASSES) {
+    if (commands.quality.transport && planned.lit) {
+      commands.find(transportKey(pass, fields));
+    }
+  }
+}
+
+void recordVolume(FrameCommands& commands, const ViewTargets& targets,
+                  const PlannedVolume& planned) {
+  VolumeRecorder(commands, targets, planned).run();
+}
+
+}  // namespace welkin

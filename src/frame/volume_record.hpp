@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// The passes of one volume in one view: its light, and what the eye sees of it.
+#pragma once
+
+#include "frame/frame_commands.hpp"
+
+namespace welkin {
+
+// Throws NOT_PREPARED if a pipeline of the volume is missing; records nothing.
+void findVolumePipelines(const FrameCommands& commands, const ViewTargets& targets,
+                         const PlannedVolume& planned);
+
+// Records a volume of the plan, drawn or not, and appends its lines to the statistics.
+void recordVolume(FrameCommands& commands, const ViewTargets& targets,
+                  const PlannedVolume& planned);
+
+}  // namespace welkin
