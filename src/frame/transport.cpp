@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "frame/transport_rays.hpp"
 #include "tables/transport_phase.hpp"
 
 namespace welkin {
 namespace {
 
-using interface_::TransportDirection;
 using interface_::TransportUniforms;
 
 constexpr int LEVELS = interface_::TRANSPORT_LEVELS;
@@ -21,109 +21,6 @@ constexpr int COARSE = interface_::TRANSPORT_COARSE_DIRECTIONS;
 // Grids of more cells take all directions on the two finest levels. With 26 a cube of optical depth
 // 4 gives back 1.057 of its light, with 50 1.021, with 150 1.018 (double prototype, 16^3 cells).
 constexpr uint32_t FINE_CELLS = 20 * 20 * 20;
-
-struct Quadrature {
-  std::array<glm::dvec3, DIRECTIONS> direction;
-  std::array<double, DIRECTIONS> fine;
-  std::array<double, COARSE> coarse;
-};
-
-// Lebedev 1976, 26 points: faces, edges and corners of a cube; exact to degree 7, which products of
-// two harmonics of degree 3 do not exceed. With the 24 that follow: 50 points, degree 11.
-Quadrature quadrature() {
-  Quadrature q{};
-  size_t next = 0;
-  for (int x = -1; x <= 1; ++x) {
-    for (int y = -1; y <= 1; ++y) {
-      for (int z = -1; z <= 1; ++z) {
-        const int parts = x * x + y * y + z * z;
-        if (parts > 0) {
-          q.direction[next] = glm::normalize(glm::dvec3(x, y, z));
-          q.coarse[next] = parts == 1 ? 1.0 / 21 : parts == 2 ? 4.0 / 105 : 9.0 / 280;
-          q.fine[next++] = parts == 1 ? 4.0 / 315 : parts == 2 ? 64.0 / 2835 : 27.0 / 1280;
-        }
-      }
-    }
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int signs = 0; signs < 8; ++signs) {
-      glm::dvec3 v((signs & 1) != 0 ? -1 : 1, (signs & 2) != 0 ? -1 : 1, (signs & 4) != 0 ? -1 : 1);
-      v[axis] *= 3;
-      q.direction[next] = glm::normalize(v);
-      q.fine[next++] = 14641.0 / 725760;
-    }
-  }
-  return q;
-}
-
-// Degree < 4, numbered l l + l + m, mean square 1; m > 0 with cos(m azimuth).
-std::array<double, TERMS> harmonics(const glm::dvec3& v) {
-  const double x = v.x;
-  const double y = v.y;
-  const double z = v.z;
-  const double squares = x * x - y * y;
-  return {1.0,
-          std::sqrt(3.0) * y,
-          std::sqrt(3.0) * z,
-          std::sqrt(3.0) * x,
-          std::sqrt(15.0) * x * y,
-          std::sqrt(15.0) * y * z,
-          std::sqrt(5.0) / 2 * (3 * z * z - 1),
-          std::sqrt(15.0) * x * z,
-          std::sqrt(15.0) / 2 * squares,
-          std::sqrt(35.0 / 8) * y * (3 * x * x - y * y),
-          std::sqrt(105.0) * x * y * z,
-          std::sqrt(21.0 / 8) * y * (5 * z * z - 1),
-          std::sqrt(7.0) / 2 * z * (5 * z * z - 3),
-          std::sqrt(21.0 / 8) * x * (5 * z * z - 1),
-          std::sqrt(105.0) / 2 * z * squares,
-          std::sqrt(35.0 / 8) * x * (x * x - 3 * y * y)};
-}
-
-// How rays of a direction meet slices; `cellsFromWorld` counts cells along the box's axes.
-TransportDirection directionThrough(const glm::dmat3& cellsFromWorld, const glm::dvec3& direction,
-                                    double weight) {
-  const glm::dvec3 speed = cellsFromWorld * direction;  // cells per m
-  int main = 0;
-  for (int axis = 1; axis < 3; ++axis) {
-    // The margin keeps the choice from hanging on rounding.
-    if (std::abs(speed[axis]) > std::abs(speed[main]) * (1 + 1e-9)) {
-      main = axis;
-    }
-  }
-  const int u = (main + 1) % 3;
-  const int v = (main + 2) % 3;
-  const double path = 1 / std::abs(speed[main]);
-  TransportDirection out;
-  out.step_ = glm::vec4(glm::dvec4(speed[u] * path, speed[v] * path, path, weight));
-  out.axes = {main, u, v, speed[main] > 0 ? 1 : -1};
-  return out;
-}
-
-glm::dmat3 cellsFromWorld(const glm::dmat3& boxFromWorld, const TransportShape& shape,
-                          double perCell) {
-  glm::dmat3 scale(1.0);
-  for (int i = 0; i < 3; ++i) {
-    scale[i][i] = perCell * shape.cells[static_cast<size_t>(i)] / shape.size[i];
-  }
-  return scale * boxFromWorld;
-}
-
-// Of a flat volume: none lies in its plane, where light goes far and one direction would stand for
-// much.
-glm::dvec3 tilted(const glm::dvec3& v, int axis) {
-  constexpr double TURN = 0.4;
-  constexpr double TILT = 0.25;
-  const int u = (axis + 1) % 3;
-  const int w = (axis + 2) % 3;
-  glm::dvec3 r = v;
-  r[u] = v[u] * std::cos(TURN) - v[w] * std::sin(TURN);
-  r[w] = v[u] * std::sin(TURN) + v[w] * std::cos(TURN);
-  const double side = r[w] * std::cos(TILT) - r[axis] * std::sin(TILT);
-  r[axis] = r[w] * std::sin(TILT) + r[axis] * std::cos(TILT);
-  r[w] = side;
-  return r;
-}
 
 double meanAlbedo(const FieldState& field) {
   const std::array<double, RGB> albedo = field.medium.scaledAlbedo();
@@ -306,10 +203,7 @@ void fillTransport(const VolumeState& volume, const glm::dvec3& toLight,
   const glm::dmat3 box(volume.worldFromBox);
   const glm::dmat3 boxFromWorld = glm::inverse(box);
   const TransportSizes sizes = transportSizes(shape.cells);
-  // Directions turn with the box.
-  const glm::dvec3 a = glm::normalize(box[0]);
-  const glm::dvec3 b = glm::normalize(box[1] - a * glm::dot(a, glm::dvec3(box[1])));
-  const glm::dmat3 turn(a, b, glm::cross(a, b));
+  const glm::dmat3 turn = transportTurn(box);
   // Around the light, tied to the box's axis that is farthest from it.
   const glm::dvec3 travel = -toLight;
   glm::dvec3 side = turn[0];
@@ -323,12 +217,8 @@ void fillTransport(const VolumeState& volume, const glm::dvec3& toLight,
   out.lightFrame[1] = glm::vec4(glm::vec3(y), 0);
   out.lightFrame[2] = glm::vec4(glm::vec3(travel), 0);
 
-  Quadrature q = quadrature();
-  if (shape.thinAxis >= 0) {
-    for (glm::dvec3& direction : q.direction) {
-      direction = tilted(direction, shape.thinAxis);
-    }
-  }
+  const TransportQuadrature q = transportQuadrature();
+  const auto travels = transportDirectionsIn(box, shape);
   int place = 0;
   for (int level = 0; level < LEVELS; ++level) {
     const int count = static_cast<int>(sizes.cells[static_cast<size_t>(level)]);
@@ -340,21 +230,21 @@ void fillTransport(const VolumeState& volume, const glm::dvec3& toLight,
     out.place[level] = {place, static_cast<int>(directions), 0, 0};
     place += count;
     for (size_t d = 0; d < directions; ++d) {
-      out.directions[static_cast<size_t>(level) * DIRECTIONS + d] = directionThrough(
-          cellsFromWorld(boxFromWorld, shape, 1.0 / (1 << level)), turn * q.direction[d],
-          directions == DIRECTIONS ? q.fine[d] : q.coarse[d]);
+      out.directions[static_cast<size_t>(level) * DIRECTIONS + d] =
+          transportDirection(transportCellsFromWorld(boxFromWorld, shape, 1.0 / (1 << level)),
+                             travels[d], directions == DIRECTIONS ? q.fine[d] : q.coarse[d]);
     }
   }
   for (size_t d = 0; d < DIRECTIONS; ++d) {
-    const glm::dvec3 w = turn * q.direction[d];
-    const auto terms =
-        harmonics({glm::dot(w, x), glm::dot(w, y), std::clamp(glm::dot(w, travel), -1.0, 1.0)});
+    const glm::dvec3 w = travels[d];
+    const auto terms = transportHarmonics(
+        {glm::dot(w, x), glm::dot(w, y), std::clamp(glm::dot(w, travel), -1.0, 1.0)});
     fillDirected(*volume.transport, w, x, y, travel, &out.directed[d * 3]);
     for (size_t term = 0; term < TERMS; ++term) {
       out.harmonics[d * 4 + term / 4][static_cast<int>(term % 4)] = static_cast<float>(terms[term]);
     }
   }
-  out.light = directionThrough(cellsFromWorld(boxFromWorld, shape, 2.0), travel, 1);
+  out.light = transportDirection(transportCellsFromWorld(boxFromWorld, shape, 2.0), travel, 1);
   const TransportMedia& media = *volume.transport;
   std::copy(media.products.begin(), media.products.end(), out.products);
   for (int i = 0; i < 3; ++i) {
