@@ -39,6 +39,19 @@ support::DeviceOptions options(bool validation) {
 
 }  // namespace
 
+WlkVulkanImage described(const GpuImage& image) {
+  auto result = welkin::make<WlkVulkanImage>();
+  result.image = image.handle;
+  result.format = image.format;
+  result.width = image.extent.width;
+  result.height = image.extent.height;
+  result.depth = image.extent.depth;
+  result.before = {VK_IMAGE_LAYOUT_GENERAL, 0, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                   VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT};
+  result.after = result.before;
+  return result;
+}
+
 Gpu::Gpu(bool validation) : device_(options(validation)) {
   VkQueryPoolCreateInfo queries{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
   queries.queryType = VK_QUERY_TYPE_TIMESTAMP;

@@ -34,6 +34,9 @@ struct GpuBuffer {
   void* data = nullptr;  // mapped
 };
 
+// As the library is told of it: a compute shader writes and reads it in the general layout.
+WlkVulkanImage described(const GpuImage& image);
+
 // Images of one size that a frame is drawn with; depth is reversed and infinite.
 struct GpuTargets {
   GpuImage depth;

@@ -12,19 +12,6 @@ namespace {
 constexpr double EYE_ALTITUDE = 1000;  // m; without air it matters to nothing
 constexpr double EYES_APART = 0.06;    // m
 
-WlkVulkanImage described(const GpuImage& image) {
-  auto result = welkin::make<WlkVulkanImage>();
-  result.image = image.handle;
-  result.format = image.format;
-  result.width = image.extent.width;
-  result.height = image.extent.height;
-  result.depth = image.extent.depth;
-  result.before = {VK_IMAGE_LAYOUT_GENERAL, 0, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                   VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT};
-  result.after = result.before;
-  return result;
-}
-
 void setLight(WlkContext context, const Vec3& toLight) {
   auto light = welkin::make<WlkLight>();
   light.direction[0] = static_cast<float>(toLight.x);

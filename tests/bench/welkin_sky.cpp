@@ -8,19 +8,6 @@
 namespace bench {
 namespace {
 
-WlkVulkanImage described(const GpuImage& image) {
-  auto result = welkin::make<WlkVulkanImage>();
-  result.image = image.handle;
-  result.format = image.format;
-  result.width = image.extent.width;
-  result.height = image.extent.height;
-  result.depth = image.extent.depth;
-  result.before = {VK_IMAGE_LAYOUT_GENERAL, 0, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                   VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT};
-  result.after = result.before;
-  return result;
-}
-
 void setScene(WlkContext context, const SkyCase& one) {
   auto planet = welkin::make<WlkPlanet>();
   planet.radius = static_cast<float>(SKY_PLANET_RADIUS);
