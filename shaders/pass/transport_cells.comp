@@ -48,7 +48,11 @@ void finest(int cell) {
     Rays rays = raysAround(volume.light, size, fine);
     float depth = rays.weight.x * depthAt(rays.index.x) + rays.weight.y * depthAt(rays.index.y) +
                   rays.weight.z * depthAt(rays.index.z) + rays.weight.w * depthAt(rays.index.w);
-    float passed = exp(-min(depth * volume.peak.x, 80.0f));
+    // Mean over the part's own depth, of which one half lies before its middle.
+    float own = dot(here, vec4(1.0f)) * volume.light.step_.z * volume.peak.x;
+    float before = max(depth * volume.peak.x - 0.5f * own, 0.0f);
+    float mean = own > 1.0e-2f ? (1.0f - exp(-own)) / own : 1.0f - own * (0.5f - own / 6.0f);
+    float passed = mean * exp(-min(before, 80.0f));
     beta += here;
     lit += dot(here, scattered) * passed;
     light += passed;

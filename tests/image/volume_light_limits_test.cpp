@@ -253,8 +253,8 @@ TEST_F(VolumeLight, LosesNoEnergy) {
   constexpr double WEIGHT[] = {0.3478548451, 0.6521451549, 0.6521451549, 0.3478548451};
   setSun({0, 0, 1});
   const WlkMedium of = medium(0);
-  // Measured with these directions: 1.011 and 1.052 (26 directions on the grid), 0.980 and 1.015
-  // (50). A quarter more for other machines.
+  // Measured with these directions: 1.0115 and 1.061 (26 directions on the grid), 1.020 and 1.058
+  // (50). A fifth to a quarter more for other machines.
   struct Case {
     uint32_t cells;
     double depth;
