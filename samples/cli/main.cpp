@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // welkin: renders scenes, compares pictures and queries the CPU models, over the public API only.
+#include <welkin/welkin.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -21,8 +23,16 @@ int report(std::string message, int code) {
   return code;
 }
 
+// That of the library that was found, which need not be the one built with.
+std::string versionText() {
+  const uint32_t version = wlkGetVersion();
+  return std::to_string(version >> 22) + "." + std::to_string(version >> 12 & 0x3ff) + "." +
+         std::to_string(version & 0xfff);
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"Welkin's sample host. Exit code: 0 success, 1 failure, 2 bad input.", "welkin"};
+  app.set_version_flag("--version", versionText);
   app.require_subcommand(1);
   cli::addRender(app);
   cli::addCompare(app);

@@ -48,7 +48,7 @@ def enumerators(text):
 
 
 def macros(text):
-    return re.findall(r"#define (WLK_(?:MAX|NAME|MESSAGE|VERSION)_\w+) +\d+u?\b", text)
+    return re.findall(r"#define (WLK_\w+) +\d+u?\b", text)
 
 
 def structs(text):
@@ -74,7 +74,7 @@ def joined(text):
     return "\n".join(lines) + "\n"
 
 
-def layout(text):
+def layout(text, include=INCLUDE):
     """Asserts, with the numbers that a small C program prints."""
     lines = ['#include <stddef.h>', '#include <stdio.h>', '#include <welkin/welkin_vulkan.h>',
              'int main(void) {']
@@ -93,7 +93,7 @@ def layout(text):
         source = pathlib.Path(folder) / "print.c"
         source.write_text("\n".join(lines))
         program = pathlib.Path(folder) / "print"
-        subprocess.run(["gcc", "-std=c11", f"-I{INCLUDE}", source, "-o", program], check=True)
+        subprocess.run(["gcc", "-std=c11", f"-I{include}", source, "-o", program], check=True)
         return joined(subprocess.run([program], check=True, capture_output=True, text=True).stdout)
 
 
