@@ -350,9 +350,66 @@ typedef struct WlkVolumeUpload {
   uint64_t dataSize;
 } WlkVolumeUpload;
 
-/** Copies the data; the GPU copy is made by the next frame. [C] */
+/** Copies the data; the GPU copy is made by the next frame. A field that is kept as bricks takes
+ *  only all of its voxels at once, is no longer kept so, and then needs wlkPrepare. [C] */
 WLK_API WlkResult wlkUploadVolume(WlkContext context, WlkVolume volume,
                                   const WlkVolumeUpload* upload);
+
+/** All that one field holds, as bricks of 8 x 8 x 8 voxels; elsewhere it is 0. Brick (i, j, k) has
+ *  the voxels 8 i to 8 i + 7 along x, and so on; voxels outside the volume are ignored. Values as
+ *  in WlkVolumeUpload, kept as half floats: under 3e-8 they become 0. */
+typedef struct WlkVolumeBricks {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Index of the field. Default 0. */
+  uint32_t field;
+  /** WLK_FORMAT_R32_FLOAT, R16_FLOAT or R8_UNORM. Default R32_FLOAT. */
+  uint32_t format;
+  /** Number of bricks, at most those of the volume. 0 empties the field. Default 0. */
+  uint32_t count;
+  uint32_t reserved0;
+  /** i, j, k of each brick, 3 * count numbers, in any order and no brick twice. Default null. */
+  const uint32_t* coordinates;
+  /** 512 values of each brick, x fastest. Read during the call only. Default null. */
+  const void* data;
+  /** Bytes from one brick to the next; 0 means tight. Default 0. */
+  uint64_t brickPitch;
+  /** Bytes at data. Default 0. */
+  uint64_t dataSize;
+} WlkVolumeBricks;
+
+/** Replaces what the field holds; memory and time grow with the bricks given, but for 5 bytes per
+ *  brick of the whole volume. The GPU copy is made by the next frame. The first bricks of a field
+ *  need wlkPrepare. [C] Errors: INVALID_ARGUMENT, UNSUPPORTED_FORMAT, LIMIT_EXCEEDED (more bricks
+ *  than a 3D image of the device holds), OUT_OF_*; after an error the field is as before. */
+WLK_API WlkResult wlkUploadVolumeBricks(WlkContext context, WlkVolume volume,
+                                        const WlkVolumeBricks* bricks);
+
+/** What a volume holds. Engines' images are not looked into, and not counted. */
+typedef struct WlkVolumeState {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Bricks of 8 x 8 x 8 voxels along x, y, z. */
+  uint32_t bricks[3];
+  uint32_t reserved0;
+  /** Bricks that hold a value above 0, those of all fields together. What is overwritten by parts
+   *  of a brick counts as before. */
+  uint64_t occupiedBricks;
+  /** The same for fields kept as bricks, with those that only interpolation reaches. Each takes
+   *  1458 bytes. */
+  uint64_t storedBricks;
+  /** Bytes of the images on the device: voxels, bricks and where they are. */
+  uint64_t deviceMemory;
+  /** Bytes on the host, not in deviceMemory. */
+  uint64_t hostMemory;
+  /** Bytes of copies that wait for the next frame. */
+  uint64_t pendingMemory;
+} WlkVolumeState;
+
+/** Fills `state`. [C] Errors: INVALID_ARGUMENT, INVALID_HANDLE, UNKNOWN_STRUCT. */
+WLK_API WlkResult wlkGetVolumeState(WlkContext context, WlkVolume volume, WlkVolumeState* state);
 
 #ifdef __cplusplus
 }

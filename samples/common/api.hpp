@@ -52,6 +52,12 @@ inline constexpr WlkStructType structType(const WlkVolumeInfo&) {
 inline constexpr WlkStructType structType(const WlkVolumeUpload&) {
   return WLK_STRUCT_VOLUME_UPLOAD;
 }
+inline constexpr WlkStructType structType(const WlkVolumeBricks&) {
+  return WLK_STRUCT_VOLUME_BRICKS;
+}
+inline constexpr WlkStructType structType(const WlkVolumeState&) {
+  return WLK_STRUCT_VOLUME_STATE;
+}
 inline constexpr WlkStructType structType(const WlkViewInfo&) {
   return WLK_STRUCT_VIEW_INFO;
 }

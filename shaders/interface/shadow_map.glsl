@@ -8,6 +8,8 @@ struct ShadowVolume {
   vec4 along;
   vec4 extinctionScale;  // per field: extinction (1/m) at value 1
   ivec4 rect;            // texels x0, y0, x1, y1 that the volume may cover
+  vec4 voxels;           // along the axes
+  vec4 atlas[4];         // per field: 1 / texels of the atlas of its bricks
 };
 
 struct ShadowConstants {

@@ -18,6 +18,8 @@ struct VolumeUniforms {
   vec4 gridScale;        // unit box to cells of the light grid: scale, offset
   vec4 gridOffset;
   vec4 gridEnd;          // last cell's middle; 1 / edge of its image
+  vec4 voxels;           // along the axes
+  vec4 atlas[4];         // per field: 1 / texels of the atlas of its bricks
   vec4 forwardFraction[32];  // F(n) per depth node; component = field
 };
 

@@ -40,6 +40,8 @@ struct TransportUniforms {
   vec4 fieldMoments[4];           // per field: albedo * moments of what is not in the peak
   // Extinction without the peak over extinction; samples per half cell and axis.
   vec4 peak;
+  vec4 voxels;                             // along the axes
+  vec4 atlas[4];         // per field: 1 / texels of the atlas of its bricks
 };
 
 struct TransportPush {

@@ -34,6 +34,7 @@ layout(set = 0, binding = 12, std430) readonly buffer FogCurve { vec4 fogCurve[]
 layout(set = 0, binding = 13) uniform sampler3D skyTable;
 layout(set = 0, binding = 14) uniform sampler3D skyPeak;
 layout(set = 0, binding = 15) uniform sampler3D viewSource;
+layout(set = 0, binding = 16) uniform sampler3D pages;
 layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "../interface/sky_table.glsl"

@@ -5,19 +5,61 @@ float cleanDensity(float x) {
   return x > 0.0f ? (x < 65505.0f ? x : 0.0f) : 0.0f;
 }
 
+// Bit i: field i is kept as bricks, its sampler being their atlas (src/frame/bricks.hpp).
+layout(constant_id = 11) const uint BRICK_FIELDS = 0u;
+
+// A position in the unit box: the slots of its brick, one per field, and where it lies in them.
+struct BrickPlace {
+  vec4 slots;
+  vec3 local;  // texels
+};
+
+BrickPlace brickPlace(vec3 box) {
+  vec3 most = volume.voxels.xyz - 1.0f;
+  vec3 voxel = clamp(box * volume.voxels.xyz - 0.5f, vec3(0.0f), most);
+  vec3 brick = floor(voxel * 0.125f);
+  return BrickPlace(texelFetch(pages, ivec3(brick), 0), voxel - 8.0f * brick + 0.5f);
+}
+
+// Value in the slot that a page names, 0 without one. `scale`: 1 / texels of the atlas. What
+// rounding takes from the next slot is under 2^-23 of the atlas' edge in texels.
+float slotValue(sampler3D atlas, float page, vec3 local, vec3 scale) {
+  float slot = page - 1.0f;
+  float z = floor(slot / 65536.0f);
+  slot -= z * 65536.0f;
+  float y = floor(slot / 256.0f);
+  vec3 corner = vec3(slot - y * 256.0f, y, z) * 9.0f;
+  float value = textureLod(atlas, (corner + local) * scale, 0.0f).x;
+  return page > 0.0f ? value : 0.0f;
+}
+
 // Extinction (1/m) of each field at a position in the unit box; 0 outside.
 vec4 fieldExtinction(vec3 box) {
   vec3 inside = step(vec3(0.0f), box) * step(box, vec3(1.0f));
   float weight = inside.x * inside.y * inside.z;
   vec4 d = vec4(0.0f);
-  d.x = cleanDensity(textureLod(field0, box, 0.0f).x);
-  if (FIELD_COUNT > 1u) {
+  BrickPlace at;
+  if (BRICK_FIELDS != 0u) {
+    at = brickPlace(box);
+  }
+  if ((BRICK_FIELDS & 1u) != 0u) {
+    d.x = slotValue(field0, at.slots.x, at.local, volume.atlas[0].xyz);
+  } else {
+    d.x = cleanDensity(textureLod(field0, box, 0.0f).x);
+  }
+  if ((BRICK_FIELDS & 2u) != 0u) {
+    d.y = slotValue(field1, at.slots.y, at.local, volume.atlas[1].xyz);
+  } else if (FIELD_COUNT > 1u) {
     d.y = cleanDensity(textureLod(field1, box, 0.0f).x);
   }
-  if (FIELD_COUNT > 2u) {
+  if ((BRICK_FIELDS & 4u) != 0u) {
+    d.z = slotValue(field2, at.slots.z, at.local, volume.atlas[2].xyz);
+  } else if (FIELD_COUNT > 2u) {
     d.z = cleanDensity(textureLod(field2, box, 0.0f).x);
   }
-  if (FIELD_COUNT > 3u) {
+  if ((BRICK_FIELDS & 8u) != 0u) {
+    d.w = slotValue(field3, at.slots.w, at.local, volume.atlas[3].xyz);
+  } else if (FIELD_COUNT > 3u) {
     d.w = cleanDensity(textureLod(field3, box, 0.0f).x);
   }
   return d * volume.extinctionScale * weight;

@@ -18,6 +18,7 @@ layout(set = 0, binding = 4) uniform sampler3D field0;
 layout(set = 0, binding = 5) uniform sampler3D field1;
 layout(set = 0, binding = 6) uniform sampler3D field2;
 layout(set = 0, binding = 7) uniform sampler3D field3;
+layout(set = 0, binding = 16) uniform sampler3D pages;
 layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "fields.glsl"

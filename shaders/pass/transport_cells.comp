@@ -10,6 +10,7 @@ layout(set = 0, binding = 3) uniform sampler3D field0;
 layout(set = 0, binding = 4) uniform sampler3D field1;
 layout(set = 0, binding = 5) uniform sampler3D field2;
 layout(set = 0, binding = 6) uniform sampler3D field3;
+layout(set = 0, binding = 10) uniform sampler3D pages;
 #include "fields.glsl"
 
 float depthAt(int index) {

@@ -31,7 +31,7 @@ struct Retired {
   uint64_t frame = 0;
   ViewResources view;
   ShadowMapResources shadowMap;
-  std::array<vk::Image, WLK_MAX_FIELDS + SCATTERING_FORMS> images;
+  std::array<vk::Image, WLK_MAX_FIELDS + SCATTERING_FORMS + 1> images;
   std::array<vk::Buffer, SCATTERING_FORMS + 1> buffers;
 };
 
@@ -142,7 +142,7 @@ WlkContext_T& requireFrame(WlkContext context, VkCommandBuffer commands, const c
 bool everythingUploaded(const WlkContext_T& context);
 
 // Makes what the maps of shadows need.
-void prepareShadowMaps(WlkContext_T& context, std::span<const uint32_t> fieldCounts);
+void prepareShadowMaps(WlkContext_T& context, std::span<const uint32_t> fieldKinds);
 
 // Hands the map's objects to the frames that use them.
 void retireShadowMap(WlkContext_T& context, ShadowMapState& map);

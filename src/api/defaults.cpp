@@ -110,6 +110,12 @@ WlkVolumeUpload upload() {
   return u;
 }
 
+WlkVolumeBricks bricks() {
+  auto b = blank<WlkVolumeBricks>(WLK_STRUCT_VOLUME_BRICKS);
+  b.format = WLK_FORMAT_R32_FLOAT;
+  return b;
+}
+
 WlkViewInfo view() {
   auto v = blank<WlkViewInfo>(WLK_STRUCT_VIEW_INFO);
   v.width = 1280;
@@ -203,6 +209,10 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
       return write(volume(), structSize, structure);
     case WLK_STRUCT_VOLUME_UPLOAD:
       return write(upload(), structSize, structure);
+    case WLK_STRUCT_VOLUME_BRICKS:
+      return write(bricks(), structSize, structure);
+    case WLK_STRUCT_VOLUME_STATE:
+      return write(blank<WlkVolumeState>(sType), structSize, structure);
     case WLK_STRUCT_VIEW_INFO:
       return write(view(), structSize, structure, VIEW_FIRST_SIZE);
     case WLK_STRUCT_CAMERA:

@@ -208,7 +208,7 @@ void recordUpdate(WlkContext_T& c, VkCommandBuffer commands) {
   for (PendingUpload& upload : c.pending) {
     VolumeState& volume = *c.volumes.find(upload.volumeId);
     ++volume.version;
-    vk::Image& image = volume.fields[upload.field].image;
+    vk::Image& image = upload.field == PAGES ? volume.pages : volume.fields[upload.field].image;
     copyInto(vk, commands, upload.staging, image, upload.region, partial(upload.region, image));
     c.bytesUploaded += upload.staging.size();
     ++c.updateCopies;
@@ -278,18 +278,18 @@ WlkResult wlkPrepare(WlkContext context) {
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
     vk::Device& device = c.requireDevice("wlkPrepare");
-    std::array<bool, WLK_MAX_FIELDS + 1> used{};
+    std::array<bool, FIELD_KINDS> used{};
     for (uint32_t i = 0; i < c.volumes.slotCount(); ++i) {
       if (VolumeState* volume = c.volumes.at(i)) {
         prepareTables(c, *volume);
-        used[volume->fieldCount] = true;
+        used[volume->fieldKind()] = true;
       }
     }
-    std::array<uint32_t, WLK_MAX_FIELDS> counts{};
+    std::array<uint32_t, FIELD_KINDS> fieldKinds{};
     size_t kinds = 0;
-    for (uint32_t n = 1; n <= WLK_MAX_FIELDS; ++n) {
-      if (used[n]) {
-        counts[kinds++] = n;
+    for (uint32_t kind = 0; kind < FIELD_KINDS; ++kind) {
+      if (used[kind]) {
+        fieldKinds[kinds++] = kind;
       }
     }
     SceneFeatures features;
@@ -316,7 +316,7 @@ WlkResult wlkPrepare(WlkContext context) {
       carrier.quality = view->quality;
       features.space = nearSpace(c, *view);
       prepareView(device, *c.pipelines, carrier, c.volumes.count(), c.maxFramesInFlight, features,
-                  {counts.data(), kinds}, &c.memory);
+                  {fieldKinds.data(), kinds}, &c.memory);
       view->plan.volumes.reserve(c.volumes.count());
       view->planVolumes.reserve(c.volumes.count());
       view->record.passes.reserve(3 + 3 * size_t{c.volumes.count()});
@@ -325,7 +325,7 @@ WlkResult wlkPrepare(WlkContext context) {
       std::swap(view->resources, carrier.resources);
       view->prepared = true;
     }
-    prepareShadowMaps(c, {counts.data(), kinds});
+    prepareShadowMaps(c, {fieldKinds.data(), kinds});
     c.collect();
     return WLK_SUCCESS;
   });

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Volumes: boxes of density fields and their data.
+// Volumes: boxes of density fields.
 #include <cmath>
 #include <utility>
 
 #include "api/context.hpp"
-#include "api/volume_data.hpp"
 
 namespace {
 
@@ -64,7 +63,7 @@ WlkResult wlkCreateVolume(WlkContext context, const WlkVolumeInfo* info, WlkVolu
       c.medium(fields[i].medium);
       checkRange(v.sType, "extinctionScale", fields[i].extinctionScale, 0, 1e6);
     }
-    const uint64_t id = c.volumes.create();
+    const uint64_t id = c.volumes.create(&c.memory);
     VolumeState& state = *c.volumes.find(id);
     state.size = {v.size[0], v.size[1], v.size[2]};
     state.fieldCount = v.fieldCount;
@@ -96,6 +95,7 @@ WlkResult wlkDestroyVolume(WlkContext context, WlkVolume volume) {
       entry.images[WLK_MAX_FIELDS + form] = std::move(state.tables[form].image);
       entry.buffers[form] = std::move(state.tables[form].staging);
     }
+    entry.images[WLK_MAX_FIELDS + SCATTERING_FORMS] = std::move(state.pages);
     entry.buffers[SCATTERING_FORMS] = std::move(state.pairTable);
     std::erase_if(c.pending, [&](const PendingUpload& p) { return p.volumeId == volume.id; });
     c.volumes.destroy(volume.id);
@@ -113,65 +113,6 @@ WlkResult wlkSetVolumeTransform(WlkContext context, WlkVolume volume,
     checkPointer(worldFromVolume, "worldFromVolume");
     checkTransform(WLK_STRUCT_VOLUME_INFO, "worldFromVolume", worldFromVolume);
     state.worldFromBox = transformOf(worldFromVolume);
-    return WLK_SUCCESS;
-  });
-}
-
-WlkResult wlkUploadVolume(WlkContext context, WlkVolume volume, const WlkVolumeUpload* upload) {
-  return guarded([&] {
-    WlkContext_T& c = checkContext(context);
-    VolumeState& state = c.volume(volume);
-    const WlkVolumeUpload u = copyStruct(upload, WLK_STRUCT_VOLUME_UPLOAD);
-    checkNoChain(upload);
-    checkUpload(state, u);
-    FieldState& field = state.fields[u.field];
-    vk::Device& device = c.requireDevice("wlkUploadVolume");
-    PendingUpload pending;
-    pending.volumeId = volume.id;
-    pending.field = u.field;
-    vk::Image image;
-    VkFormat format =
-        u.format == WLK_FORMAT_R32_FLOAT ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R16_SFLOAT;
-    if (field.image) {
-      format = field.image.info().format;
-    } else {
-      vk::ImageInfo info;
-      info.type = VK_IMAGE_TYPE_3D;
-      info.format = format;
-      info.extent = {state.size[0], state.size[1], state.size[2]};
-      info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-      image = vk::Image(device, info);
-    }
-    const uint64_t texel = format == VK_FORMAT_R32_SFLOAT ? 4 : 2;
-    pending.staging = vk::Buffer(device, texel * u.extent[0] * u.extent[1] * u.extent[2],
-                                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true);
-    const VoxelSums sums = convertVoxels(u, format == VK_FORMAT_R32_SFLOAT, pending.staging.data());
-    pending.region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    pending.region.imageOffset = {static_cast<int32_t>(u.offset[0]),
-                                  static_cast<int32_t>(u.offset[1]),
-                                  static_cast<int32_t>(u.offset[2])};
-    pending.region.imageExtent = {u.extent[0], u.extent[1], u.extent[2]};
-    c.pending.push_back(std::move(pending));
-    // Nothing throws from here on.
-    if (image) {
-      field.image = std::move(image);
-    }
-    const bool whole = u.extent[0] == state.size[0] && u.extent[1] == state.size[1] &&
-                       u.extent[2] == state.size[2];
-    if (whole) {
-      field.filled = {};
-    }
-    for (size_t i = 0; i < 3; ++i) {
-      if (sums.filled.end[i] > 0) {
-        field.filled.first[i] = std::min(field.filled.first[i], u.offset[i] + sums.filled.first[i]);
-        field.filled.end[i] = std::max(field.filled.end[i], u.offset[i] + sums.filled.end[i]);
-      }
-    }
-    field.largest = whole ? sums.largest : std::max(field.largest, sums.largest);
-    const double all = double(state.size[0]) * state.size[1] * state.size[2];
-    const double part = double(u.extent[0]) * u.extent[1] * u.extent[2] / all;
-    field.mean = (1 - part) * field.mean + sums.sum / all;
-    field.meanSquare = (1 - part) * field.meanSquare + sums.squares / all;
     return WLK_SUCCESS;
   });
 }

@@ -123,7 +123,7 @@ void retireShadowMap(WlkContext_T& c, ShadowMapState& map) {
   std::swap(entry.shadowMap, map.resources);
 }
 
-void prepareShadowMaps(WlkContext_T& c, std::span<const uint32_t> fieldCounts) {
+void prepareShadowMaps(WlkContext_T& c, std::span<const uint32_t> fieldKinds) {
   c.shadowCasters.reserve(c.volumes.count());
   for (uint32_t i = 0; i < c.shadowMaps.slotCount(); ++i) {
     ShadowMapState* map = c.shadowMaps.at(i);
@@ -133,7 +133,7 @@ void prepareShadowMaps(WlkContext_T& c, std::span<const uint32_t> fieldCounts) {
     c.retired.reserve(c.retired.size() + 1);
     ShadowMapResources made(&c.memory);
     prepareShadowMap(*c.device, *c.pipelines, map->info, c.volumes.count(), c.maxFramesInFlight,
-                     fieldCounts, made);
+                     fieldKinds, made);
     retireShadowMap(c, *map);
     std::swap(map->resources, made);
     map->prepared = true;

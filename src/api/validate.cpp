@@ -38,6 +38,10 @@ const char* structName(uint32_t sType) {
       return "WlkVolumeInfo";
     case WLK_STRUCT_VOLUME_UPLOAD:
       return "WlkVolumeUpload";
+    case WLK_STRUCT_VOLUME_BRICKS:
+      return "WlkVolumeBricks";
+    case WLK_STRUCT_VOLUME_STATE:
+      return "WlkVolumeState";
     case WLK_STRUCT_VIEW_INFO:
       return "WlkViewInfo";
     case WLK_STRUCT_CAMERA:

@@ -10,12 +10,39 @@ namespace {
 
 constexpr float LARGEST_VALUE = 65504.0f;
 
+float clean(float x) {
+  return x > 0.0f ? (std::isinf(x) ? 0.0f : (x < LARGEST_VALUE ? x : LARGEST_VALUE)) : 0.0f;
+}
+
+// a * b + c, or fails: pitches come from outside.
+uint64_t checkedSum(uint64_t a, uint64_t b, uint64_t c) {
+  uint64_t product = 0;
+  uint64_t sum = 0;
+  if (__builtin_mul_overflow(a, b, &product) || __builtin_add_overflow(product, c, &sum)) {
+    fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_VOLUME_UPLOAD, "slicePitch",
+         "WlkVolumeUpload: the pitches overflow");
+  }
+  return sum;
+}
+
+void include(VoxelRange& range, const Edges& voxel) {
+  for (size_t i = 0; i < voxel.size(); ++i) {
+    range.first[i] = std::min(range.first[i], voxel[i]);
+    range.end[i] = std::max(range.end[i], voxel[i] + 1);
+  }
+}
+
+}  // namespace
+
 uint64_t bytesPerVoxel(uint32_t format) {
   return format == WLK_FORMAT_R32_FLOAT ? 4 : (format == WLK_FORMAT_R16_FLOAT ? 2 : 1);
 }
 
-float clean(float x) {
-  return x > 0.0f ? (std::isinf(x) ? 0.0f : (x < LARGEST_VALUE ? x : LARGEST_VALUE)) : 0.0f;
+void checkFormat(uint32_t sType, uint32_t format) {
+  if (format < WLK_FORMAT_R32_FLOAT || format > WLK_FORMAT_R8_UNORM) {
+    fail(WLK_ERROR_UNSUPPORTED_FORMAT, sType, "format", "%s::format is %u", structName(sType),
+         format);
+  }
 }
 
 float readVoxel(const unsigned char* p, uint32_t format) {
@@ -32,32 +59,19 @@ float readVoxel(const unsigned char* p, uint32_t format) {
   return static_cast<float>(*p) / 255.0f;
 }
 
-// a * b + c, or fails: pitches come from outside.
-uint64_t checkedSum(uint64_t a, uint64_t b, uint64_t c) {
-  uint64_t product = 0;
-  uint64_t sum = 0;
-  if (__builtin_mul_overflow(a, b, &product) || __builtin_add_overflow(product, c, &sum)) {
-    fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_VOLUME_UPLOAD, "slicePitch",
-         "WlkVolumeUpload: the pitches overflow");
-  }
-  return sum;
-}
-
-void include(VoxelRange& range, const std::array<uint32_t, 3>& voxel) {
-  for (size_t i = 0; i < voxel.size(); ++i) {
-    range.first[i] = std::min(range.first[i], voxel[i]);
-    range.end[i] = std::max(range.end[i], voxel[i] + 1);
+void addVoxel(VoxelSums& sums, float value, const Edges& voxel) {
+  if (value > 0.0f) {
+    sums.largest = std::max(sums.largest, value);
+    include(sums.filled, voxel);
+    const double wide{value};
+    sums.sum += wide;
+    sums.squares += wide * wide;
   }
 }
-
-}  // namespace
 
 void checkUpload(const VolumeState& volume, const WlkVolumeUpload& u) {
   checkRange(u.sType, "field", u.field, 0, volume.fieldCount - 1);
-  if (u.format < WLK_FORMAT_R32_FLOAT || u.format > WLK_FORMAT_R8_UNORM) {
-    fail(WLK_ERROR_UNSUPPORTED_FORMAT, u.sType, "format", "WlkVolumeUpload::format is %u",
-         u.format);
-  }
+  checkFormat(u.sType, u.format);
   for (uint32_t i = 0; i < 3; ++i) {
     if (u.extent[i] < 1 || u.offset[i] > volume.size[i] ||
         u.extent[i] > volume.size[i] - u.offset[i]) {
@@ -121,7 +135,29 @@ float floatFromHalf(uint16_t bits) {
   return (bits & 0x8000u) != 0 ? -value : value;
 }
 
-VoxelSums convertVoxels(const WlkVolumeUpload& u, bool toFloat, void* out) {
+// Forgets the bricks that the upload covers with all of their voxels.
+static void clearFaces(const WlkVolumeUpload& u, const Edges& size, const BrickGrid& grid,
+                       BrickFaces& faces) {
+  Edges first{};
+  Edges end{};
+  for (size_t i = 0; i < 3; ++i) {
+    const uint32_t last = u.offset[i] + u.extent[i];
+    first[i] = (u.offset[i] + BRICK_EDGE - 1) / BRICK_EDGE;
+    end[i] = last == size[i] ? grid.count[i] : last / BRICK_EDGE;
+  }
+  for (uint32_t z = first[2]; z < end[2]; ++z) {
+    for (uint32_t y = first[1]; y < end[1]; ++y) {
+      for (uint32_t x = first[0]; x < end[0]; ++x) {
+        faces[grid.at({x, y, z})] = 0;
+      }
+    }
+  }
+}
+
+VoxelSums convertVoxels(const WlkVolumeUpload& u, bool toFloat, void* out, const Edges& size,
+                        BrickFaces& faces) {
+  const BrickGrid grid = brickGrid(size);
+  clearFaces(u, size, grid, faces);
   const uint64_t voxel = bytesPerVoxel(u.format);
   const uint64_t rowPitch = u.rowPitch == 0 ? voxel * u.extent[0] : u.rowPitch;
   const uint64_t slicePitch = u.slicePitch == 0 ? rowPitch * u.extent[1] : u.slicePitch;
@@ -133,12 +169,11 @@ VoxelSums convertVoxels(const WlkVolumeUpload& u, bool toFloat, void* out) {
       for (uint32_t x = 0; x < u.extent[0]; ++x, from += voxel) {
         const float value = readVoxel(from, u.format);
         if (value > 0.0f) {
-          sums.largest = std::max(sums.largest, value);
-          include(sums.filled, {x, y, z});
+          const Edges at{u.offset[0] + x, u.offset[1] + y, u.offset[2] + z};
+          addVoxel(sums, value, at);
+          faces[grid.at({at[0] / BRICK_EDGE, at[1] / BRICK_EDGE, at[2] / BRICK_EDGE})] |=
+              facesOf(at);
         }
-        const double wide{value};
-        sums.sum += wide;
-        sums.squares += wide * wide;
         if (toFloat) {
           std::memcpy(to, &value, sizeof value);
           to += sizeof value;

@@ -7,6 +7,11 @@
 
 namespace welkin {
 
+uint64_t bytesPerVoxel(uint32_t format);
+void checkFormat(uint32_t sType, uint32_t format);
+// A voxel's value, cleaned as below; any alignment.
+float readVoxel(const unsigned char* p, uint32_t format);
+
 void checkUpload(const VolumeState& volume, const WlkVolumeUpload& upload);
 
 // Nearest half float of a finite value in [0, 65504], as bits.
@@ -19,8 +24,11 @@ struct VoxelSums {
   float largest = 0;
   double sum = 0;
   double squares = 0;
-  VoxelRange filled;  // within the upload
+  VoxelRange filled;  // of the volume's voxels
 };
-VoxelSums convertVoxels(const WlkVolumeUpload& upload, bool toFloat, void* out);
+void addVoxel(VoxelSums& sums, float value, const Edges& voxel);
+// Also brings up to date the `faces` of the bricks of a volume of `size`.
+VoxelSums convertVoxels(const WlkVolumeUpload& upload, bool toFloat, void* out, const Edges& size,
+                        BrickFaces& faces);
 
 }  // namespace welkin

@@ -127,7 +127,8 @@ bool everythingUploaded(const WlkContext_T& c) {
     if (volume == nullptr) {
       continue;
     }
-    if (std::any_of(volume->tables.begin(), volume->tables.end(),
+    if (blank(volume->pages) ||
+        std::any_of(volume->tables.begin(), volume->tables.end(),
                     [&](const ScatteringTable& table) { return blank(table.image); }) ||
         std::any_of(volume->fields.begin(), volume->fields.end(),
                     [&](const FieldState& field) { return blank(field.image); })) {
@@ -171,6 +172,16 @@ WlkResult wlkVulkanGetRequirements(WlkVulkanRequirements* requirements) {
   });
 }
 
+// Passes read an image and bricks differently.
+static void keepImage(WlkContext_T& c, FieldState& field,
+                      const std::optional<WlkVulkanImage>& image) {
+  const bool bricks = field.bricks();
+  field.external = image;
+  if (field.bricks() != bricks) {
+    c.invalidate();
+  }
+}
+
 WlkResult wlkVulkanSetVolumeImage(WlkContext context, WlkVolume volume, uint32_t field,
                                   const WlkVulkanImage* image) {
   return guarded([&] {
@@ -182,7 +193,7 @@ WlkResult wlkVulkanSetVolumeImage(WlkContext context, WlkVolume volume, uint32_t
     }
     checkRange(WLK_STRUCT_VULKAN_IMAGE, "field", field, 0, state.fieldCount - 1);
     if (image == nullptr) {
-      state.fields[field].external.reset();
+      keepImage(c, state.fields[field], std::nullopt);
       return WLK_SUCCESS;
     }
     const WlkVulkanImage i = checkedImage(image, "volume image", state.size[0], state.size[1]);
@@ -202,7 +213,7 @@ WlkResult wlkVulkanSetVolumeImage(WlkContext context, WlkVolume volume, uint32_t
            "a volume image stays in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL");
     }
     importView(c, i, VK_IMAGE_VIEW_TYPE_3D, VK_IMAGE_ASPECT_COLOR_BIT);
-    state.fields[field].external = i;
+    keepImage(c, state.fields[field], i);
     return WLK_SUCCESS;
   });
 }
@@ -215,7 +226,7 @@ WlkResult wlkVulkanForgetImage(WlkContext context, VkImage image) {
       if (VolumeState* volume = c.volumes.at(i)) {
         for (FieldState& field : volume->fields) {
           if (field.external && field.external->image == image) {
-            field.external.reset();
+            keepImage(c, field, std::nullopt);
           }
         }
       }

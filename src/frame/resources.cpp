@@ -61,7 +61,7 @@ VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t vol
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, slots * (4 * volumes + 2)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, slots * (6 * volumes + 3)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, slots * (2 * volumes + 4)},
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, slots * (14 * volumes + 7)}};
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, slots * (16 * volumes + 7)}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.maxSets = sets;
   info.poolSizeCount = static_cast<uint32_t>(sizes.size());
@@ -165,7 +165,7 @@ void makeHeadlessTargets(vk::Device& device, const WlkViewInfo& info, ViewResour
 }
 
 void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
-                      const SceneFeatures& features, std::span<const uint32_t> fieldCounts) {
+                      const SceneFeatures& features, std::span<const uint32_t> fieldKinds) {
   // Every state the frame may find the scene in without another wlkPrepare: light above or below
   // the horizon, something opaque or not, volumes in view or not.
   const SliceQuality quality = resolveQuality(view.quality);
@@ -174,7 +174,7 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
   const bool fog = features.fog && (view.info.layers & WLK_LAYER_FOG) != 0;
   for (uint32_t lights = 0; lights <= features.lights; ++lights) {
     for (const bool depth : {false, true}) {
-      for (const uint32_t fields : fieldCounts) {
+      for (const uint32_t fields : fieldKinds) {
         EyeVariant v{air, fog, lights > 0, depth, false};
         pipelines.prepare(eyeKey(v, fields, quality));
         v.allLight = lights > 0 && sky && !fog && quality.multipleSky;
@@ -184,7 +184,7 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
       v.air = air;
       v.fog = fog;
       v.lights = lights;
-      v.volumes = !fieldCounts.empty();
+      v.volumes = !fieldKinds.empty();
       v.depth = depth;
       if (sky && (view.info.layers & WLK_LAYER_SUN_DISK) != 0) {
         v.disk = features.shapedDisk ? 2 : 1;
@@ -212,7 +212,7 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
       }
     }
   }
-  for (const uint32_t fields : fieldCounts) {
+  for (const uint32_t fields : fieldKinds) {
     pipelines.prepare(lightKey(fields, quality.forwardScattering));
     if (quality.transport) {
       for (const vk::Pass pass : TRANSPORT_PASSES) {
@@ -264,19 +264,22 @@ VkFormat targetFormat(uint32_t welkinFormat) {
 }
 
 vk::PipelineKey lightKey(uint32_t fields, bool forward) {
-  return {vk::Pass::LightSlices, VK_FORMAT_UNDEFINED, {0, 0, 1, fields, forward ? 1u : 0u}};
+  return ofFields({vk::Pass::LightSlices, VK_FORMAT_UNDEFINED, {0, 0, 1, 0, forward ? 1u : 0u}},
+                  fields);
 }
 
 vk::PipelineKey eyeKey(const EyeVariant& v, uint32_t fields, const SliceQuality& quality) {
-  return {vk::Pass::EyeSlices,
-          VK_FORMAT_UNDEFINED,
-          {v.air, v.fog, v.light, fields, quality.forwardScattering, v.depth, v.allLight,
-           quality.transport && v.light, quality.multipleSky}};
+  return ofFields({vk::Pass::EyeSlices,
+                   VK_FORMAT_UNDEFINED,
+                   {v.air, v.fog, v.light, 0, quality.forwardScattering, v.depth, v.allLight,
+                    quality.transport && v.light, quality.multipleSky}},
+                  fields);
 }
 
 vk::PipelineKey transportKey(vk::Pass pass, uint32_t fields) {
   const bool reads = pass == vk::Pass::TransportDepth || pass == vk::Pass::TransportCells;
-  return {pass, VK_FORMAT_UNDEFINED, {0, 0, 0, reads ? fields : 0}};
+  const vk::PipelineKey key{pass, VK_FORMAT_UNDEFINED, {}};
+  return reads ? ofFields(key, fields) : key;
 }
 
 vk::PipelineKey skyTableKey(uint32_t air, bool fog, uint32_t lights, bool allLight) {
@@ -303,10 +306,10 @@ vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& v)
 
 void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
                  uint32_t volumeCount, uint32_t framesInFlight, const SceneFeatures& features,
-                 std::span<const uint32_t> fieldCounts, std::pmr::memory_resource* memory) {
+                 std::span<const uint32_t> fieldKinds, std::pmr::memory_resource* memory) {
   const SliceQuality quality = roomFor(view.quality);
   const WlkViewInfo& info = view.info;
-  preparePipelines(pipelines, view, features, fieldCounts);
+  preparePipelines(pipelines, view, features, fieldKinds);
 
   Draft draft(device, memory);
   ViewResources& r = draft.resources;
@@ -355,7 +358,7 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
       makeTransport(device, quality, volumeCount, r);
     }
     if (quality.volumeShadows) {
-      makeViewShadow(device, pipelines, volumeCount, framesInFlight, fieldCounts, r);
+      makeViewShadow(device, pipelines, volumeCount, framesInFlight, fieldKinds, r);
     }
   }
   if (quality.multipleSky && (features.sky || features.fog)) {

@@ -25,7 +25,7 @@ VkFormat targetFormat(uint32_t welkinFormat);
 // view keeps what it had.
 void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
                  uint32_t volumeCount, uint32_t framesInFlight, const SceneFeatures& features,
-                 std::span<const uint32_t> fieldCounts, std::pmr::memory_resource* memory);
+                 std::span<const uint32_t> fieldKinds, std::pmr::memory_resource* memory);
 void destroyView(vk::Device& device, ViewState& view);
 
 // Builds the volume's scattering tables of a form (SliceQuality::form) and the staging copy of

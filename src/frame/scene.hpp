@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "frame/bricks.hpp"
 #include "frame/governor.hpp"
 #include "frame/plan.hpp"
 #include "particles/medium.hpp"
@@ -25,6 +26,7 @@ constexpr int DEPTH_NODES = 32;  // of a scattering table, see tables/multiscatt
 // Poisson counts of scatterings, the paper's whole numbers, and the first order with its peak
 // blurred.
 constexpr uint32_t SCATTERING_FORMS = 3;
+constexpr uint32_t FIELD_KINDS = 8 << WLK_MAX_FIELDS;  // values of VolumeState::fieldKind
 
 struct MediumState {
   Medium medium;
@@ -33,11 +35,12 @@ struct MediumState {
 
 // Voxels [first, end) along each axis; empty if none.
 struct VoxelRange {
-  std::array<uint32_t, 3> first{~0U, ~0U, ~0U};
-  std::array<uint32_t, 3> end{};
+  Edges first{~0U, ~0U, ~0U};
+  Edges end{};
 };
 
-// A field's image: Welkin's own, made by the first upload, or the engine's.
+// A field's image: Welkin's own, made by the first upload, of voxels or an atlas of bricks, or the
+// engine's.
 struct FieldState {
   uint64_t mediumId = 0;
   Medium medium;
@@ -48,7 +51,11 @@ struct FieldState {
   double meanSquare = 0;
   VoxelRange filled;  // holds all values above 0 in `image`
   vk::Image image;
+  Edges atlas{};       // slots of `image`, 0 where it holds voxels
+  uint64_t slots = 0;  // of them used
   std::optional<WlkVulkanImage> external;
+
+  bool bricks() const { return atlas[0] > 0 && !external; }
 };
 
 // Source distributions of a volume's fields, one layer each, and their forward parts.
@@ -58,7 +65,7 @@ struct ScatteringTable {
   std::array<std::array<float, DEPTH_NODES>, WLK_MAX_FIELDS> forwardFraction{};
 };
 
-// Data on its way to a field's image.
+// Data on its way to a field's image, or to the pages.
 struct PendingUpload {
   uint64_t volumeId = 0;
   uint32_t field = 0;
@@ -68,8 +75,13 @@ struct PendingUpload {
 
 struct TransportMedia;
 
+constexpr uint32_t PAGES = WLK_MAX_FIELDS;  // PendingUpload::field of them
+
 struct VolumeState {
-  std::array<uint32_t, 3> size{};
+  explicit VolumeState(std::pmr::memory_resource* memory)
+      : faces{BrickFaces(memory), BrickFaces(memory), BrickFaces(memory), BrickFaces(memory)},
+        pageTexels(memory) {}
+  Edges size{};
   uint32_t fieldCount = 0;
   std::array<FieldState, WLK_MAX_FIELDS> fields;
   glm::dmat4x3 worldFromBox{1.0};
@@ -77,6 +89,20 @@ struct VolumeState {
   std::shared_ptr<const TransportMedia> transport;       // likewise
   vk::Buffer pairTable;                                  // of `transport`, as its passes read it
   uint64_t version = 1;                                  // of the fields' contents
+  std::array<BrickFaces, WLK_MAX_FIELDS> faces;          // of Welkin's own images; empty: of none
+  // Where fields are kept as bricks: the slot of each, a channel per field (pageChannels).
+  vk::Image pages;
+  std::pmr::vector<float> pageTexels;
+
+  uint32_t pageChannels() const { return fieldCount == 1 ? 1 : 4; }
+  // How passes read the fields: their number, and from bit 3 on which are kept as bricks.
+  uint32_t fieldKind() const {
+    uint32_t kind = fieldCount;
+    for (uint32_t i = 0; i < fieldCount; ++i) {
+      kind |= (fields[i].bricks() ? 1u : 0u) << (3 + i);
+    }
+    return kind;
+  }
 
   bool anyDensity() const {
     for (uint32_t i = 0; i < fieldCount; ++i) {
@@ -88,6 +114,13 @@ struct VolumeState {
     return false;
   }
 };
+
+// The key of a pass that reads fields of a kind (VolumeState::fieldKind).
+inline vk::PipelineKey ofFields(vk::PipelineKey key, uint32_t kind) {
+  key.constants[3] = kind & 7u;
+  key.constants[11] = kind >> 3;
+  return key;
+}
 
 // A descriptor set and what it points to; written only where that changes.
 struct BoundSet {

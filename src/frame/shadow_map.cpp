@@ -106,6 +106,7 @@ interface_::ShadowVolume shadowVolume(const ShadowLayout& s, const WlkShadowMapI
           field.extinctionScale * static_cast<float>(field.medium.extinctionFactor());
     }
   }
+  fillBricks(volume, out);
   return out;
 }
 

@@ -22,7 +22,7 @@ constexpr WlkVulkanImageState WRITTEN{VK_IMAGE_LAYOUT_GENERAL, 0, COMPUTE,
                                       VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
 
 vk::PipelineKey volumeKey(uint32_t fields) {
-  return {vk::Pass::ShadowMap, VK_FORMAT_UNDEFINED, {0, 0, 0, fields}};
+  return ofFields({vk::Pass::ShadowMap, VK_FORMAT_UNDEFINED, {}}, fields);
 }
 
 vk::PipelineKey resolveKey() {
@@ -48,7 +48,7 @@ void makeSets(const vk::Device& device, const vk::Pipelines& pipelines, uint32_t
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, count},
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4 * count}};
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 5 * count}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.maxSets = count;
   info.poolSizeCount = static_cast<uint32_t>(sizes.size());
@@ -182,7 +182,7 @@ class ShadowRecorder {
   void findPipelines() const {
     find(resolveKey());
     for (const ShadowCaster& caster : in_.volumes) {
-      find(volumeKey(caster.state->fieldCount));
+      find(volumeKey(caster.state->fieldKind()));
     }
     if (in_.volumes.size() > r_.volumeCapacity) {
       fail(WLK_ERROR_NOT_PREPARED, 0, "map", "call wlkPrepare before recording");
@@ -206,7 +206,7 @@ class ShadowRecorder {
         std::memcpy(static_cast<char*>(r_.uniforms.data()) + uniformsOf(rank), &volume,
                     sizeof volume);
         bind(&caster, rank++);
-        dispatch(find(volumeKey(caster.state->fieldCount)),
+        dispatch(find(volumeKey(caster.state->fieldKind())),
                  static_cast<uint32_t>(volume.rect.z - volume.rect.x),
                  static_cast<uint32_t>(volume.rect.w - volume.rect.y));
         barrier(COMPUTE, SUMS, COMPUTE, SUMS);
@@ -252,6 +252,9 @@ class ShadowRecorder {
       bindings_.image(set, vk::BIND_SHADOW_FIELD0 + i, view, pipelines_.linear(),
                       VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
+    const bool pages = caster != nullptr && caster->state->pages;
+    bindings_.image(set, vk::BIND_SHADOW_PAGES, pages ? caster->state->pages.view() : in_.dummy3d,
+                    pipelines_.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     vk_.CmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.shadowLayout(),
                               0, 1, &set.set, 0, nullptr);
   }
@@ -295,9 +298,9 @@ class ShadowRecorder {
 
 void prepareShadowMap(vk::Device& device, vk::Pipelines& pipelines, const WlkShadowMapInfo& info,
                       uint32_t volumeCount, uint32_t framesInFlight,
-                      std::span<const uint32_t> fieldCounts, ShadowMapResources& made) {
+                      std::span<const uint32_t> fieldKinds, ShadowMapResources& made) {
   pipelines.prepare(resolveKey());
-  for (const uint32_t fields : fieldCounts) {
+  for (const uint32_t fields : fieldKinds) {
     pipelines.prepare(volumeKey(fields));
   }
   try {

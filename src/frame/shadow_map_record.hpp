@@ -21,7 +21,7 @@ struct ShadowMapInput {
 // nothing.
 void prepareShadowMap(vk::Device& device, vk::Pipelines& pipelines, const WlkShadowMapInfo& info,
                       uint32_t volumeCount, uint32_t framesInFlight,
-                      std::span<const uint32_t> fieldCounts, ShadowMapResources& made);
+                      std::span<const uint32_t> fieldKinds, ShadowMapResources& made);
 void destroyShadowMap(vk::Device& device, ShadowMapResources& resources);
 
 // Throws NOT_PREPARED before the first command if something is missing.

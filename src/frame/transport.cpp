@@ -268,6 +268,7 @@ void fillTransport(const VolumeState& volume, const glm::dvec3& toLight,
   out.gridOrigin = glm::vec4(glm::vec3(shape.origin), 0);
   out.gridSize = glm::vec4(glm::vec3(shape.size), 0);
   out.peak = {static_cast<float>(1 - media.peak), static_cast<float>(taps), 0, 0};
+  fillBricks(volume, out);
 }
 
 }  // namespace welkin

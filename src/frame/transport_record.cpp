@@ -173,9 +173,11 @@ TransportCommands recordTransport(const vk::Device& device, const vk::Pipelines&
     bindings.image(set, vk::BIND_TRANSPORT_FIELD0 + i, image, pipelines.linear(),
                    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   }
+  bindings.image(set, vk::BIND_TRANSPORT_PAGES, state.pages ? state.pages.view() : in.dummy3d,
+                 pipelines.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   device.vk().CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
                                     pipelines.transportLayout(), 0, 1, &set.set, 0, nullptr);
-  TransportRecorder recorder(device, pipelines, commands, shape.cells, state.fieldCount);
+  TransportRecorder recorder(device, pipelines, commands, shape.cells, state.fieldKind());
   if (!remembered(grid, uniforms, planned.id, state.version) || always || external) {
     recorder.compute();
   }

@@ -229,6 +229,7 @@ void fillVolume(const VolumeState& volume, const PlannedVolume& planned, const g
       out.forwardFraction[n][c] = forward[n];
     }
   }
+  fillBricks(volume, out);
   out.rect = {static_cast<float>(planned.rect.x0), static_cast<float>(planned.rect.y0),
               static_cast<float>(planned.rect.x1), static_cast<float>(planned.rect.y1)};
 }

@@ -47,6 +47,20 @@ bool litByAnother(const WlkLight& light);
 // Whether its disk is not uniform.
 bool hasShapedDisk(const WlkLight& light);
 
+// The rows of a pass' constants that tell how the fields are kept.
+template <typename Constants>
+void fillBricks(const VolumeState& volume, Constants& out) {
+  out.voxels = {volume.size[0], volume.size[1], volume.size[2], 0.0f};
+  for (uint32_t i = 0; i < volume.fieldCount; ++i) {
+    if (volume.fields[i].bricks()) {
+      const VkExtent3D& texels = volume.fields[i].image.info().extent;
+      out.atlas[i] = {1.0f / static_cast<float>(texels.width),
+                      1.0f / static_cast<float>(texels.height),
+                      1.0f / static_cast<float>(texels.depth), 0.0f};
+    }
+  }
+}
+
 void fillFrame(const AirState& air, const SkyLightState& sky, const ViewState& view,
                interface_::FrameUniforms& out);
 // Whether the eye is so high that its table is too coarse for the edge of night below.

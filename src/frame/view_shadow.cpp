@@ -75,7 +75,7 @@ void writePlace(const WlkShadowMapState& state, const glm::dvec3& eye, double le
 }  // namespace
 
 void makeViewShadow(vk::Device& device, vk::Pipelines& pipelines, uint32_t volumeCount,
-                    uint32_t framesInFlight, std::span<const uint32_t> fieldCounts,
+                    uint32_t framesInFlight, std::span<const uint32_t> fieldKinds,
                     ViewResources& r) {
   vk::ImageInfo image;
   image.format = VK_FORMAT_R32G32B32A32_SFLOAT;
@@ -83,7 +83,7 @@ void makeViewShadow(vk::Device& device, vk::Pipelines& pipelines, uint32_t volum
   image.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
   r.shadowImage = vk::Image(device, image);
   r.shadowCasters.reserve(volumeCount);
-  prepareShadowMap(device, pipelines, emptyInfo(), volumeCount, framesInFlight, fieldCounts,
+  prepareShadowMap(device, pipelines, emptyInfo(), volumeCount, framesInFlight, fieldKinds,
                    r.shadow.resources);
 }
 

@@ -9,7 +9,7 @@ namespace welkin {
 
 // Room for the map and its image.
 void makeViewShadow(vk::Device& device, vk::Pipelines& pipelines, uint32_t volumeCount,
-                    uint32_t framesInFlight, std::span<const uint32_t> fieldCounts,
+                    uint32_t framesInFlight, std::span<const uint32_t> fieldKinds,
                     ViewResources& r);
 
 // Records the map if the plan has shadows and it may have changed, and writes its place into the

@@ -19,7 +19,7 @@ vk::PipelineKey eyeKeyOf(const FrameCommands& c, const ViewTargets& targets,
   const Plan& plan = c.view.plan;
   return eyeKey(
       {plan.airKind(), plan.fog, planned.lit, static_cast<bool>(targets.depth), plan.allLight},
-      c.in.volumes[planned.index].state->fieldCount, c.quality);
+      c.in.volumes[planned.index].state->fieldKind(), c.quality);
 }
 
 class VolumeRecorder {
@@ -80,7 +80,7 @@ class VolumeRecorder {
     bind(covered);
     const VkPipeline eyePipeline = c_.find(eyeKeyOf(c_, targets_, planned_));
     const VkPipeline lightPipeline =
-        c_.find(lightKey(volume_.state->fieldCount, quality.forwardScattering));
+        c_.find(lightKey(volume_.state->fieldKind(), quality.forwardScattering));
     for (uint32_t slab = 0; slab < quality.sliceCount; slab += quality.batchSize) {
       SliceConstants push{};
       push.firstSlab = slab;
@@ -160,6 +160,9 @@ class VolumeRecorder {
       c_.bindings.image(set, vk::BIND_FIELD0 + i, view, c_.pipelines.linear(),
                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
+    const vk::Image& pages = volume_.state->pages;
+    c_.bindings.image(set, vk::BIND_PAGES, pages ? pages.view() : c_.in.dummy3d,
+                      c_.pipelines.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   }
 
   FrameCommands& c_;
@@ -177,7 +180,7 @@ void findVolumePipelines(const FrameCommands& commands, const ViewTargets& targe
     return;
   }
   commands.find(eyeKeyOf(commands, targets, planned));
-  const uint32_t fields = commands.in.volumes[planned.index].state->fieldCount;
+  const uint32_t fields = commands.in.volumes[planned.index].state->fieldKind();
   commands.find(lightKey(fields, commands.quality.forwardScattering));
   for (const vk::Pass pass : TRANSPORT_PASSES) {
     if (commands.quality.transport && planned.lit) {

@@ -55,7 +55,8 @@ enum VolumeBinding : uint32_t {
   BIND_SKY_TABLE = 13,
   BIND_SKY_PEAK = 14,
   BIND_VIEW_SOURCE = 15,
-  VOLUME_BINDING_COUNT = 16
+  BIND_PAGES = 16,
+  VOLUME_BINDING_COUNT = 17
 };
 enum CompositeBinding : uint32_t {
   BIND_COMPOSITE_FRAME = 0,
@@ -88,7 +89,8 @@ enum TransportBinding : uint32_t {
   BIND_TRANSPORT_PAIRS = 7,
   BIND_TRANSPORT_TARGET = 8,
   BIND_TRANSPORT_VIEW = 9,
-  TRANSPORT_BINDING_COUNT = 10
+  BIND_TRANSPORT_PAGES = 10,
+  TRANSPORT_BINDING_COUNT = 11
 };
 
 enum ShadowBinding : uint32_t {
@@ -96,7 +98,8 @@ enum ShadowBinding : uint32_t {
   BIND_SHADOW_SUMS = 1,
   BIND_SHADOW_TARGET = 2,
   BIND_SHADOW_FIELD0 = 3,
-  SHADOW_BINDING_COUNT = 7
+  BIND_SHADOW_PAGES = 7,
+  SHADOW_BINDING_COUNT = 8
 };
 
 class Pipelines {

@@ -213,6 +213,8 @@ static void objects(WlkContext context) {
   WlkMediumInfo mediumInfo;
   WlkVolumeInfo volumeInfo;
   WlkVolumeUpload upload;
+  WlkVolumeBricks bricks;
+  WlkVolumeState state;
   WlkVolumeField field;
   WlkMedium medium = {0};
   WlkVolume volume = {0};
@@ -231,6 +233,10 @@ static void objects(WlkContext context) {
   REQUIRE(volume.id == 0);
   REQUIRE(wlkSetVolumeTransform(context, volume, moved) < 0);
   REQUIRE(wlkUploadVolume(context, volume, &upload) < 0);
+  INIT(WLK_STRUCT_VOLUME_BRICKS, bricks);
+  REQUIRE(wlkUploadVolumeBricks(context, volume, &bricks) < 0);
+  INIT(WLK_STRUCT_VOLUME_STATE, state);
+  EXPECT(WLK_ERROR_INVALID_HANDLE, wlkGetVolumeState(context, volume, &state));
   EXPECT(WLK_ERROR_INVALID_HANDLE, wlkDestroyVolume(context, volume));
   EXPECT(WLK_SUCCESS, wlkDestroyMedium(context, medium));
   EXPECT(WLK_ERROR_INVALID_HANDLE, wlkDestroyMedium(context, medium));

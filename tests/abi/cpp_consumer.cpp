@@ -92,10 +92,11 @@ static void errorsNameTheField() {
 int main() {
   makeSetsTheHead<WlkErrorInfo, WlkContextInfo, WlkHeadlessInfo, WlkCapabilities, WlkPlanet, WlkSky,
                   WlkLight, WlkFog, WlkAbsorber, WlkAtmospherePreset, WlkMediumInfo,
-                  WlkMediumOptics, WlkVolumeInfo, WlkVolumeUpload, WlkViewInfo, WlkCamera,
-                  WlkQuality, WlkQualityState, WlkFrameInfo, WlkHeadlessTargets, WlkImageData,
-                  WlkFrameStats, WlkRayBatch, WlkPhaseQuery, WlkSkyMapQuery, WlkVulkanDeviceInfo,
-                  WlkVulkanRequirements, WlkVulkanImage, WlkVulkanViewTargets>();
+                  WlkMediumOptics, WlkVolumeInfo, WlkVolumeUpload, WlkVolumeBricks, WlkVolumeState,
+                  WlkViewInfo, WlkCamera, WlkQuality, WlkQualityState, WlkFrameInfo,
+                  WlkHeadlessTargets, WlkImageData, WlkFrameStats, WlkRayBatch, WlkPhaseQuery,
+                  WlkSkyMapQuery, WlkVulkanDeviceInfo, WlkVulkanRequirements, WlkVulkanImage,
+                  WlkVulkanViewTargets>();
   movesOnly<welkin::Context>();
   movesOnly<welkin::Medium>();
   movesOnly<welkin::Volume>();

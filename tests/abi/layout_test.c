@@ -157,6 +157,27 @@ AT(WlkVolumeUpload, slicePitch, 56);
 AT(WlkVolumeUpload, data, 64);
 AT(WlkVolumeUpload, dataSize, 72);
 
+SIZE(WlkVolumeBricks, 64);
+HEAD(WlkVolumeBricks);
+AT(WlkVolumeBricks, field, 16);
+AT(WlkVolumeBricks, format, 20);
+AT(WlkVolumeBricks, count, 24);
+AT(WlkVolumeBricks, reserved0, 28);
+AT(WlkVolumeBricks, coordinates, 32);
+AT(WlkVolumeBricks, data, 40);
+AT(WlkVolumeBricks, brickPitch, 48);
+AT(WlkVolumeBricks, dataSize, 56);
+
+SIZE(WlkVolumeState, 72);
+HEAD(WlkVolumeState);
+AT(WlkVolumeState, bricks, 16);
+AT(WlkVolumeState, reserved0, 28);
+AT(WlkVolumeState, occupiedBricks, 32);
+AT(WlkVolumeState, storedBricks, 40);
+AT(WlkVolumeState, deviceMemory, 48);
+AT(WlkVolumeState, hostMemory, 56);
+AT(WlkVolumeState, pendingMemory, 64);
+
 SIZE(WlkViewInfo, 48);
 HEAD(WlkViewInfo);
 AT(WlkViewInfo, width, 16);
@@ -372,7 +393,8 @@ VALUE(WLK_STRUCT_CAPABILITIES, 4); VALUE(WLK_STRUCT_PLANET, 10); VALUE(WLK_STRUC
 VALUE(WLK_STRUCT_LIGHT, 12); VALUE(WLK_STRUCT_FOG, 13); VALUE(WLK_STRUCT_ABSORBER, 14);
 VALUE(WLK_STRUCT_ATMOSPHERE_PRESET, 15); VALUE(WLK_STRUCT_MEDIUM_INFO, 20);
 VALUE(WLK_STRUCT_VOLUME_INFO, 21); VALUE(WLK_STRUCT_VOLUME_UPLOAD, 22);
-VALUE(WLK_STRUCT_MEDIUM_OPTICS, 23); VALUE(WLK_STRUCT_VIEW_INFO, 30); VALUE(WLK_STRUCT_CAMERA, 31);
+VALUE(WLK_STRUCT_MEDIUM_OPTICS, 23); VALUE(WLK_STRUCT_VOLUME_BRICKS, 24);
+VALUE(WLK_STRUCT_VOLUME_STATE, 25); VALUE(WLK_STRUCT_VIEW_INFO, 30); VALUE(WLK_STRUCT_CAMERA, 31);
 VALUE(WLK_STRUCT_QUALITY, 32); VALUE(WLK_STRUCT_QUALITY_STATE, 33);
 VALUE(WLK_STRUCT_FRAME_INFO, 40); VALUE(WLK_STRUCT_HEADLESS_TARGETS, 41);
 VALUE(WLK_STRUCT_IMAGE_DATA, 42); VALUE(WLK_STRUCT_FRAME_STATS, 43);

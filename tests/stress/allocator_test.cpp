@@ -115,6 +115,21 @@ TEST(Allocator, EveryStepOfASceneSurvivesEveryFailure) {
                   memory, [&] { return wlkUploadVolume(c, volume, &upload); }, nothing),
               0u);
 
+    // Bricks, and voxels in their place again.
+    const std::array<uint32_t, 3> origin{};
+    const std::vector<float> brick(512, 0.25f);
+    auto bricks = make<WlkVolumeBricks>();
+    bricks.count = 1;
+    bricks.coordinates = origin.data();
+    bricks.data = brick.data();
+    bricks.dataSize = brick.size() * sizeof(float);
+    EXPECT_GT(failEachUntilSuccess(
+                  memory, [&] { return wlkUploadVolumeBricks(c, volume, &bricks); }, nothing),
+              0u);
+    EXPECT_GT(failEachUntilSuccess(
+                  memory, [&] { return wlkUploadVolume(c, volume, &upload); }, nothing),
+              0u);
+
     auto viewInfo = make<WlkViewInfo>();
     viewInfo.width = options.width;
     viewInfo.height = options.height;

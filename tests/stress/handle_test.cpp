@@ -20,6 +20,14 @@ Calls volumeCalls() {
         upload.data = value.data();
         upload.dataSize = sizeof value;
         return wlkUploadVolume(c, {id}, &upload);
+      },
+      [](WlkContext c, uint64_t id) {
+        const auto bricks = make<WlkVolumeBricks>();
+        return wlkUploadVolumeBricks(c, {id}, &bricks);
+      },
+      [](WlkContext c, uint64_t id) {
+        auto state = make<WlkVolumeState>();
+        return wlkGetVolumeState(c, {id}, &state);
       }};
 }
 

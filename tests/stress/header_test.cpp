@@ -157,6 +157,16 @@ TEST(StructHeader, OfUploadsAndQueriesIsChecked) {
   const auto uploadVolume = [&](const WlkVolumeUpload* p) {
     return wlkUploadVolume(c, victim.volume, p);
   };
+  const std::array<uint32_t, 3> origin{};
+  const std::vector<float> brick(512, 0.75f);
+  auto bricks = make<WlkVolumeBricks>();
+  bricks.count = 1;
+  bricks.coordinates = origin.data();
+  bricks.data = brick.data();
+  bricks.dataSize = brick.size() * sizeof(float);
+  const auto uploadBricks = [&](const WlkVolumeBricks* p) {
+    return wlkUploadVolumeBricks(c, victim.volume, p);
+  };
   const auto evalSky = [&](const WlkRayBatch* p) { return wlkEvalSky(c, p, nullptr, nullptr); };
   std::vector<float> map(3 * 4 * 4);
   auto mapQuery = make<WlkSkyMapQuery>();
@@ -167,15 +177,18 @@ TEST(StructHeader, OfUploadsAndQueriesIsChecked) {
   auto phaseQuery = make<WlkPhaseQuery>();
   phaseQuery.medium = victim.medium;
   abuseHeader<WlkVolumeUpload>(upload, uploadVolume);
+  abuseHeader<WlkVolumeBricks>(bricks, uploadBricks);
   abuseHeader<WlkRayBatch>(make<WlkRayBatch>(), evalSky);
   abuseHeader<WlkSkyMapQuery>(mapQuery, evalMap);
   abuseHeader<WlkPhaseQuery>(phaseQuery, evalPhase);
   victim.expectUnchanged();
   expectLongerAccepted<WlkVolumeUpload>(upload, uploadVolume);
+  expectLongerAccepted<WlkVolumeBricks>(bricks, uploadBricks);
   expectLongerAccepted<WlkRayBatch>(make<WlkRayBatch>(), evalSky);
   expectLongerAccepted<WlkSkyMapQuery>(mapQuery, evalMap);
   expectLongerAccepted<WlkPhaseQuery>(phaseQuery, evalPhase);
   victim.scene.upload(victim.volume, {4, 4, 4}, std::vector<float>(64, 0.5f));
+  ASSERT_EQ(wlkPrepare(c), WLK_SUCCESS);  // voxels in the place of bricks
   victim.expectUnchanged();
 }
 
@@ -217,6 +230,8 @@ TEST(StructHeader, OfOutputStructuresIsCheckedAndOnlyKnownBytesAreWritten) {
   victim.expectUnchanged();  // a frame, so that statistics exist
   abuseOutput<WlkCapabilities>([&](WlkCapabilities* p) { return wlkGetCapabilities(c, p); },
                                "WlkCapabilities");
+  abuseOutput<WlkVolumeState>(
+      [&](WlkVolumeState* p) { return wlkGetVolumeState(c, victim.volume, p); }, "WlkVolumeState");
   abuseOutput<WlkFrameStats>(
       [&](WlkFrameStats* p) {
         uint32_t count = 0;

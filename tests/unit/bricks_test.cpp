@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Which bricks a sample may find anything in, and the shapes of atlases.
+#include "frame/bricks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+namespace {
+
+using namespace welkin;
+
+// Trilinear interpolation looks at the voxel below a position and the one after it: those are in
+// [8 b, 8 b + 8] for positions whose lower voxel is in brick b.
+TEST(Bricks, ThatAreReachedAreThoseWithAVoxelUnderAFilter) {
+  constexpr Edges SIZE{37, 8, 25};
+  const BrickGrid grid = brickGrid(SIZE);
+  ASSERT_EQ(grid.count, (Edges{5, 1, 4}));
+  std::mt19937 random(5);
+  for (int round = 0; round < 50; ++round) {
+    std::set<Edges> voxels;
+    for (int i = 0; i < 3; ++i) {
+      voxels.insert({static_cast<uint32_t>(random() % SIZE[0]),
+                     static_cast<uint32_t>(random() % SIZE[1]),
+                     static_cast<uint32_t>(random() % SIZE[2])});
+    }
+    BrickFaces faces(grid.total());
+    std::set<uint32_t> occupied;
+    for (const Edges& v : voxels) {
+      const size_t index = grid.at({v[0] / 8, v[1] / 8, v[2] / 8});
+      faces[index] |= facesOf(v);
+      occupied.insert(static_cast<uint32_t>(index));
+    }
+    EXPECT_EQ(countOccupied(faces), occupied.size());
+    std::vector<uint32_t> expected;
+    for (uint32_t index = 0; index < grid.total(); ++index) {
+      const Edges b = grid.brickOf(index);
+      const bool holds = std::any_of(voxels.begin(), voxels.end(), [&](const Edges& v) {
+        return v[0] >= 8 * b[0] && v[0] <= 8 * b[0] + 8 && v[1] >= 8 * b[1] &&
+               v[1] <= 8 * b[1] + 8 && v[2] >= 8 * b[2] && v[2] <= 8 * b[2] + 8;
+      });
+      if (holds) {
+        expected.push_back(index);
+      }
+    }
+    const std::vector<uint32_t> list(occupied.begin(), occupied.end());
+    const auto reached = reachedBricks(grid, faces, list, std::pmr::get_default_resource());
+    EXPECT_TRUE(std::equal(reached.begin(), reached.end(), expected.begin(), expected.end()))
+        << "round " << round;
+  }
+}
+
+TEST(Bricks, FillTheirAtlasAndPagesAreExact) {
+  for (const uint64_t slots : {1u, 2u, 7u, 27u, 1000u, 26214u, 40000u, 500000u}) {
+    const Edges shape = atlasShape(slots, 227);
+    const uint64_t room = uint64_t{shape[0]} * shape[1] * shape[2];
+    EXPECT_GE(room, slots);
+    EXPECT_LE(static_cast<double>(room), 1.02 * static_cast<double>(slots)) << slots;
+    for (const uint64_t slot : {uint64_t{0}, slots / 2, slots - 1}) {
+      const auto page = static_cast<uint64_t>(pageOf(shape, slot)) - 1;
+      EXPECT_EQ(slotCorner(shape, slot),
+                (Edges{static_cast<uint32_t>(page & 255), static_cast<uint32_t>(page >> 8 & 255),
+                       static_cast<uint32_t>(page >> 16)}));
+    }
+  }
+  EXPECT_EQ(atlasShape(1001, 10), (Edges{0, 0, 0}));
+  EXPECT_EQ(atlasShape(1000, 10), (Edges{10, 10, 10}));
+}
+
+}  // namespace
