@@ -19,13 +19,13 @@ FINDING = re.compile(r": (error|warning): ")
 
 
 def arguments_of(entry):
-    """Without the file, its output and a precompiled header, which is gcc's."""
+    """Without the file, its output, and what is gcc's: a precompiled header, flags."""
     words = shlex.split(entry["command"])
     left_out = [words.index("-o"), words.index("-o") + 1]
     for i, word in enumerate(words):
         if word == "-include" and words[i + 1].endswith("cmake_pch.hxx"):
             left_out += [i, i + 1]
-        elif word in ("-c", entry["file"], "-Winvalid-pch"):
+        elif word in ("-c", entry["file"], "-Winvalid-pch", "-fno-gnu-unique"):
             left_out.append(i)
     return tuple(word for i, word in enumerate(words) if i not in left_out)
 
