@@ -1,0 +1,422 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Views, frames and their statistics. Part of welkin.h, which states the conventions.
+ */
+#ifndef WELKIN_VIEW_H
+#define WELKIN_VIEW_H
+
+#include "core.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+  /** Write colour * transmittance + radiance to a storage image (or over the input image). */
+  WLK_COMPOSITE_COMPUTE = 0,
+  /** Blend onto the engine's colour attachment with dual-source blending. */
+  WLK_COMPOSITE_BLEND = 1,
+  /** Write premultiplied radiance and RGB transmittance to two images; the engine composites. */
+  WLK_COMPOSITE_SEPARATE = 2
+};
+
+/** Layers of a view. SUN_DISK and GROUND belong to the sky: they need WLK_LAYER_SKY and
+ *  wlkSetSky. */
+enum {
+  WLK_LAYER_SKY = 1u << 0,
+  WLK_LAYER_FOG = 1u << 1,
+  WLK_LAYER_VOLUMES = 1u << 2,
+  WLK_LAYER_SUN_DISK = 1u << 3,
+  WLK_LAYER_GROUND = 1u << 4,
+  WLK_LAYER_ALL = 0x1f
+};
+
+enum { WLK_TARGET_RGBA16_FLOAT = 1, WLK_TARGET_RGBA32_FLOAT = 2, WLK_TARGET_B10G11R11_FLOAT = 3 };
+
+/** What the three channels of the radiance are. Transmittance is per channel in any case. */
+enum {
+  /** Radiance at 680, 550 and 440 nm. */
+  WLK_COLOR_WAVELENGTHS = 0,
+  /** Linear sRGB (Rec. 709, D65) of the whole spectrum that these three stand for. Irradiance 1, 1,
+   *  1 is then sunlight outside the atmosphere: luminance 1, colour (1.098, 0.977, 0.940). Colours
+   *  outside the gamut are cut off at 0. */
+  WLK_COLOR_SRGB = 1
+};
+
+typedef struct WlkViewInfo {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Pixels. [1, 16384], default 1280 x 720. */
+  uint32_t width;
+  uint32_t height;
+  /** WLK_COMPOSITE_*. Default COMPUTE. Headless contexts take COMPUTE and SEPARATE. */
+  uint32_t composite;
+  /** Format of the images written, WLK_TARGET_*. Default RGBA16_FLOAT; headless RGBA32_FLOAT. */
+  uint32_t targetFormat;
+  /** Bits WLK_LAYER_*. Default all. */
+  uint64_t layers;
+  /** WLK_COLOR_*. Default WAVELENGTHS. */
+  uint32_t color;
+  uint32_t reserved0;
+} WlkViewInfo;
+
+WLK_API WlkResult wlkCreateView(WlkContext context, const WlkViewInfo* info,
+                                WlkView* view); /* [C] */
+/** Changes size, composite mode, format or layers. Needs wlkPrepare. [C] */
+WLK_API WlkResult wlkUpdateView(WlkContext context, WlkView view, const WlkViewInfo* info);
+WLK_API WlkResult wlkDestroyView(WlkContext context, WlkView view); /* [C] */
+
+/** Near, far, field of view, handedness, reversed and infinite depth follow from the matrix. */
+typedef struct WlkCamera {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Eye in the world. m, |x| <= 1e9. Default (0, 2, 0). */
+  double position[3];
+  /** Rotation, column-major 3x3, orthonormal (mirrored allowed). Default identity. */
+  float viewFromWorld[9];
+  /** Factor on everything written, > 0, so that the target's range is used. [1e-9, 1e9], def. 1. */
+  float preExposure;
+  /** Vulkan clip space, without jitter, perspective. Default 60 degrees vertical field of view,
+   *  16:9, y up in view space, looking along -z, infinite reversed depth with near plane 0.1 m. */
+  float clipFromView[16];
+} WlkCamera;
+
+/** Sets the camera for the frames to come. [C] Errors: INVALID_ARGUMENT also for a singular or
+ *  orthographic clipFromView and for a viewFromWorld that is no rotation. */
+WLK_API WlkResult wlkSetCamera(WlkContext context, WlkView view, const WlkCamera* camera);
+
+enum { WLK_QUALITY_LOW = 0, WLK_QUALITY_MEDIUM = 1, WLK_QUALITY_HIGH = 2, WLK_QUALITY_ULTRA = 3 };
+
+enum {
+  /** The level's choice. */
+  WLK_SLICING_DEFAULT = 0,
+  /** Planes between eye and light, [R04] 4.2: acute angles front to back, obtuse back to front. */
+  WLK_SLICING_HALF_ANGLE = 1,
+  /** Planes across the light's direction: no flip at 90 degrees, independent of the view. */
+  WLK_SLICING_LIGHT_ALIGNED = 2
+};
+
+enum {
+  WLK_SCATTERING_DEFAULT = 0,
+  /** Once-scattered light only, in air and fog as well. */
+  WLK_SCATTERING_SINGLE = 1,
+  /** Forward multiple scattering in volumes, [R04] Eq. 20-26 as corrected in docs/equations.md; all
+   *  orders in air and fog. */
+  WLK_SCATTERING_FORWARD = 2,
+  /** The same with the paper's whole number of scatterings, ceil(n), for comparison. */
+  WLK_SCATTERING_FORWARD_INTEGER = 3,
+  /** All orders: the first exactly, the others on a grid of cells inside each volume. */
+  WLK_SCATTERING_ALL_ORDERS = 4
+};
+
+enum {
+  /** Record every pass whether needed or not; for tests that compare with skipping. */
+  WLK_QUALITY_NO_SKIP = 1u << 0,
+  /** Volumes cast shadows on air, fog and the bare planet, from the first light, as far as it is
+   *  scattered once. */
+  WLK_QUALITY_VOLUME_SHADOWS = 1u << 1
+};
+
+/** Who chooses between the lowest level and `level`. Controls other than LEVEL leave sliceCount,
+ *  batchSize and lightBufferSize 0. */
+enum {
+  /** Nobody: the numbers of `level` and of the fields that are not 0. */
+  WLK_CONTROL_LEVEL = 0,
+  /** The best that keeps timeBudget_ms by the view's own timestamps. */
+  WLK_CONTROL_TIME = 1,
+  /** The same by times that the engine reports: wlkReportFrameTime. */
+  WLK_CONTROL_REPORTED_TIME = 2,
+  /** The cheapest whose estimated error is at most errorTarget. */
+  WLK_CONTROL_ERROR = 3
+};
+
+/** Zero in a field means the level's choice. */
+typedef struct WlkQuality {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** WLK_QUALITY_*. Default HIGH. */
+  uint32_t level;
+  /** Slabs through each volume. 0 or [8, 2048]. Default 0. */
+  uint32_t sliceCount;
+  /** Slabs per batch: 1 is the paper's algorithm. 0 or [1, sliceCount]. Default 0. */
+  uint32_t batchSize;
+  /** Texels along the light buffer's edge. 0 or [16, 2048]. Default 0. */
+  uint32_t lightBufferSize;
+  /** WLK_SLICING_*. Default DEFAULT. */
+  uint32_t slicing;
+  /** WLK_SCATTERING_*. Default DEFAULT. */
+  uint32_t scattering;
+  /** Bits WLK_QUALITY_NO_SKIP, WLK_QUALITY_VOLUME_SHADOWS. Default 0. */
+  uint64_t flags;
+  /** With WLK_SCATTERING_ALL_ORDERS: edge of a cube with as many cells as the grid of a volume has
+   *  at most. 0 or [8, 128]. Default 0. */
+  uint32_t volumeCells;
+  /** WLK_CONTROL_*. Default LEVEL. */
+  uint32_t control;
+  /** Of WLK_CONTROL_TIME and WLK_CONTROL_REPORTED_TIME: GPU time of this view's frame, ms.
+   *  [0.01, 1000] there, else 0. Default 0. */
+  float timeBudget_ms;
+  /** Of WLK_CONTROL_ERROR: relative error as wlkGetErrorEstimate has it. [1e-4, 1] there, else 0.
+   *  Default 0. */
+  float errorTarget;
+  /** WLK_QUALITY_* below which no control goes, at most `level`. Default LOW. */
+  uint32_t lowestLevel;
+  uint32_t reserved0;
+} WlkQuality;
+
+/** Sets a view's quality. Needs wlkPrepare, unless only timeBudget_ms or errorTarget of a
+ *  controlled quality change. [C] MISSING_FEATURE: WLK_CONTROL_TIME on a queue without
+ *  timestamps. */
+WLK_API WlkResult wlkSetQuality(WlkContext context, WlkView view, const WlkQuality* quality);
+
+/** Why a controlled view stands where it does. */
+enum {
+  /** WLK_CONTROL_LEVEL. */
+  WLK_CONTROL_REASON_NONE = 0,
+  /** Too few frames of this rung are known. */
+  WLK_CONTROL_REASON_MEASURING = 1,
+  /** It keeps the budget, the next rung up would not; or it is the cheapest that keeps the error
+   *  target. */
+  WLK_CONTROL_REASON_FITS = 2,
+  /** It keeps the budget on the highest rung. */
+  WLK_CONTROL_REASON_BEST = 3,
+  /** The next rung up would keep the budget, too; it is taken if that stays so. */
+  WLK_CONTROL_REASON_RISING = 4,
+  /** The budget is exceeded; a lower rung is taken if that stays so. */
+  WLK_CONTROL_REASON_OVER = 5,
+  /** No rung keeps the budget or the error target: this is the lowest or the highest. */
+  WLK_CONTROL_REASON_UNREACHABLE = 6,
+  /** No volume is drawn: rungs would look and cost the same. */
+  WLK_CONTROL_REASON_IDLE = 7
+};
+
+/** Where a view's quality stands on the ladder of settings from the lowest level to its own. */
+typedef struct WlkQualityState {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** WLK_CONTROL_*. */
+  uint32_t control;
+  /** WLK_CONTROL_REASON_*. */
+  uint32_t reason;
+  /** Of the next frame; of all levels the ladder has the rungs 0, 3, 7 and 11. */
+  uint32_t rung;
+  uint32_t lowestRung;
+  uint32_t highestRung;
+  /** What the rung stands for, as in WlkQuality. */
+  uint32_t sliceCount;
+  uint32_t batchSize;
+  uint32_t lightBufferSize;
+  uint32_t volumeCells;
+  uint32_t reserved0;
+  /** Smoothed time of a frame on this rung, and what the next rung up would take; 0 if unknown. */
+  float time_ms;
+  float predictedTime_ms;
+  /** Estimated error of this rung (WLK_CONTROL_ERROR); 0 if unknown. */
+  float relativeError;
+  uint32_t reserved1;
+  /** First frame on this rung, and how often the rung has changed since wlkSetQuality. */
+  uint64_t sinceFrame;
+  uint64_t switches;
+} WlkQualityState;
+
+/** Tells what a view's quality is and why. [C] */
+WLK_API WlkResult wlkGetQualityState(WlkContext context, WlkView view, WlkQualityState* state);
+
+/** Reports what the GPU took for the view's part of a finished frame, ms, for
+ *  WLK_CONTROL_REPORTED_TIME. In the order of the frames; of some it may be missing. A frame that
+ * is not later than the last one reported changes nothing. [C] Errors: INVALID_ARGUMENT for times
+ *  outside (0, 1e6] and for frames that were not recorded yet, WRONG_STATE with another control. */
+WLK_API WlkResult wlkReportFrameTime(WlkContext context, WlkView view, uint64_t frameIndex,
+                                     double milliseconds);
+
+/** "WLK_CONTROL_REASON_FITS" and so on. [F] */
+WLK_API const char* wlkControlReasonName(uint32_t reason);
+
+/* ------------------------------------------------------------------------------------- frames */
+
+/** Makes every pipeline, buffer and table that the present scene and views need. After it, and
+ *  until something is created or resized, recording allocates nothing. Solves for the light that
+ *  air and fog scatter more than once (0.1 to 0.4 s) if the air has changed; without it the next
+ *  frames show the old light while wlkVulkanCmdUpdate solves for the new, 4 ms of CPU time each,
+ *  24 in clear air, up to 110 in fog, and allocates when it begins and ends. Views whose eye has
+ *  risen above 1.5 scale heights (12 km on Earth) are drawn more sharply at the edge of night far
+ *  below if this is called again. [C]
+ *  Errors: WRONG_STATE in CPU mode, OUT_OF_*, DEVICE_LOST. */
+WLK_API WlkResult wlkPrepare(WlkContext context);
+
+typedef struct WlkFrameInfo {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Number of this frame; greater than the last one. Default 0. */
+  uint64_t frameIndex;
+  /** All frames up to this number are complete on the GPU; 0 if none. Default 0. */
+  uint64_t completedFrameIndex;
+} WlkFrameInfo;
+
+/** Starts a frame on the engine's device; headless contexts do this themselves. frameIndex starts
+ *  at 1. [C] Errors: FRAMES_IN_FLIGHT, INVALID_ARGUMENT, WRONG_STATE. */
+WLK_API WlkResult wlkBeginFrame(WlkContext context, const WlkFrameInfo* frame);
+
+/** The engine's picture for wlkRenderHeadless. */
+typedef struct WlkHeadlessTargets {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** width * height RGBA floats, top row first; null means black. Default null. */
+  const float* color;
+  /** width * height depth values in the camera's convention; null means nothing is there. */
+  const float* depth;
+} WlkHeadlessTargets;
+
+/** Renders one frame of the view and waits for it. `targets` may be null. [C]
+ *  Errors: WRONG_STATE outside headless mode, NOT_PREPARED, DEVICE_LOST. */
+WLK_API WlkResult wlkRenderHeadless(WlkContext context, WlkView view,
+                                    const WlkHeadlessTargets* targets);
+
+enum {
+  /** The composited picture (COMPUTE). */
+  WLK_IMAGE_COLOR = 0,
+  /** Premultiplied radiance (SEPARATE). */
+  WLK_IMAGE_RADIANCE = 1,
+  /** RGB transmittance (SEPARATE). */
+  WLK_IMAGE_TRANSMITTANCE = 2
+};
+
+typedef struct WlkImageData {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** WLK_IMAGE_*. Default COLOR. */
+  uint32_t image;
+  uint32_t reserved0;
+  /** Receives width * height RGBA floats, top row first. Default null. */
+  float* data;
+  /** Bytes at data, at least width * height * 16. Default 0. */
+  uint64_t dataSize;
+} WlkImageData;
+
+/** Copies an image of the view's last headless frame. [C] NOT_READY before the first frame. */
+WLK_API WlkResult wlkReadback(WlkContext context, WlkView view, const WlkImageData* image);
+
+/* --------------------------------------------------------------------------------- statistics */
+
+enum {
+  WLK_PASS_LIGHT_SLICES = 1,
+  WLK_PASS_EYE_SLICES = 2,
+  WLK_PASS_COMPOSITE = 3,
+  /** Light of the sky scattered more than once, by direction. */
+  WLK_PASS_SKY_TABLE = 4,
+  /** Light inside a volume that was scattered before (WLK_SCATTERING_ALL_ORDERS). */
+  WLK_PASS_VOLUME_LIGHT = 5,
+  /** A map of the volumes' shadow: the engine's (welkin_vulkan.h), or the view's own. */
+  WLK_PASS_SHADOW_MAP = 6
+};
+
+/** Why a pass was recorded or not. */
+enum {
+  WLK_REASON_NEEDED = 0,
+  WLK_REASON_LAYER_OFF = 1,
+  WLK_REASON_NOTHING_TO_DRAW = 2,
+  WLK_REASON_ZERO_DENSITY = 3,
+  WLK_REASON_OUTSIDE_VIEW = 4,
+  WLK_REASON_NO_LIGHT = 5,
+  WLK_REASON_NO_SKIP_FLAG = 6,
+  /** What the pass depends on is as in an earlier frame, whose result is used. */
+  WLK_REASON_UNCHANGED = 7
+};
+
+/** One line of the plan: a pass over one volume (or over the picture), all its batches together. */
+typedef struct WlkPassStats {
+  /** "light slices" and so on. */
+  char name[WLK_NAME_SIZE];
+  /** WLK_PASS_*. */
+  uint32_t pass;
+  /** 1 if commands were recorded, 0 if skipped. */
+  uint32_t recorded;
+  /** WLK_REASON_*. */
+  uint32_t reason;
+  /** Dispatches or draws recorded. */
+  uint32_t commands;
+  /** The volume, {0} for passes over the picture. */
+  WlkVolume volume;
+  /** Shader invocations (threads) recorded. */
+  uint64_t invocations;
+  /** GPU time of the newest finished frame, ns; 0 before one finished. */
+  uint64_t gpuTime_ns;
+} WlkPassStats;
+
+typedef struct WlkFrameStats {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  uint64_t frameIndex;
+  uint32_t dispatches;
+  uint32_t draws;
+  uint32_t barriers;
+  uint32_t descriptorWrites;
+  uint64_t bytesUploaded;
+  /** Bytes of device memory and of host memory that the context holds. */
+  uint64_t deviceMemory;
+  uint64_t hostMemory;
+  /** Pixels of the newest finished frame whose value was not finite before the final guard. */
+  uint64_t nonFinitePixels;
+} WlkFrameStats;
+
+/** Statistics of the view's last recorded frame. `passCount` holds the room in `passes` and
+ *  receives the number of passes; `passes` may be null. [C] NOT_READY before the first frame,
+ *  INCOMPLETE if the array was too short. */
+WLK_API WlkResult wlkGetFrameStats(WlkContext context, WlkView view, WlkFrameStats* stats,
+                                   uint32_t* passCount, WlkPassStats* passes);
+
+/** "WLK_REASON_ZERO_DENSITY" and so on. [F] */
+WLK_API const char* wlkReasonName(uint32_t reason);
+
+/* --------------------------------------------------------------------------- estimate of error */
+
+/** What keeps a picture from the truth. */
+enum {
+  /** Sky light: with WLK_SCATTERING_SINGLE all that was scattered more than once or came from the
+   *  ground. */
+  WLK_APPROXIMATION_SKY = 0,
+  /** Light scattered more than once in the fog layer, by two Legendre terms. */
+  WLK_APPROXIMATION_FOG = 1,
+  /** Light turned back inside volumes; with WLK_SCATTERING_SINGLE all that is scattered again. */
+  WLK_APPROXIMATION_VOLUME_SCATTERING = 2,
+  /** Slabs and light-buffer texels. */
+  WLK_APPROXIMATION_VOLUME_SLICES = 3
+};
+#define WLK_MAX_APPROXIMATIONS 8
+
+/** Relative errors of the radiance against all orders of scattering: root mean square over the
+ *  picture's pixels and colours of (radiance - truth) / truth, without opaque surfaces. */
+typedef struct WlkErrorEstimate {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** All approximations together, [0, 1]. */
+  float relativeError;
+  /** WLK_APPROXIMATION_* of the largest part. */
+  uint32_t dominant;
+  /** By WLK_APPROXIMATION_*; the sum of their squares is that of relativeError. */
+  float part[WLK_MAX_APPROXIMATIONS];
+} WlkErrorEstimate;
+
+/** Estimates the error of the view's next frame from the scene, the camera and the quality: rules
+ *  fitted to measurements (docs/accuracy-and-performance.md), right within a factor of 2 for most
+ *  scenes, the part of the slabs within 4. A volume in an engine's image counts as filled with 1,
+ *  uploads by parts as if the rest kept its mean. Renders nothing. [C] */
+WLK_API WlkResult wlkGetErrorEstimate(WlkContext context, WlkView view, WlkErrorEstimate* estimate);
+
+/** "WLK_APPROXIMATION_SKY" and so on. [F] */
+WLK_API const char* wlkApproximationName(uint32_t approximation);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Welkin on the engine's own Vulkan device. Welkin records into the engine's command buffers and
+ * never submits, waits, or compiles while recording. It links no Vulkan: every entry point comes
+ * through the engine's vkGetInstanceProcAddr.
+ *
+ * Define WELKIN_VULKAN_ALREADY_INCLUDED to supply the Vulkan types yourself.
+ */
+#ifndef WELKIN_WELKIN_VULKAN_H
+#define WELKIN_WELKIN_VULKAN_H
+
+#include "welkin.h"
+#ifndef WELKIN_VULKAN_ALREADY_INCLUDED
+#include <vulkan/vulkan_core.h>
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** What the engine's instance, device and images must have. */
+typedef struct WlkVulkanRequirements {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Least version of instance and device: VK_API_VERSION_1_3. */
+  uint32_t apiVersion;
+  /** The queue family's flags: GRAPHICS and COMPUTE. */
+  VkQueueFlags queueFlags;
+  /** Features to enable (1 = needed): VkPhysicalDeviceVulkan13Features. */
+  uint32_t synchronization2;
+  uint32_t dynamicRendering;
+  /** VkPhysicalDeviceFeatures, needed. */
+  uint32_t shaderStorageImageWriteWithoutFormat;
+  /** VkPhysicalDeviceFeatures, needed for WLK_COMPOSITE_BLEND only. */
+  uint32_t dualSrcBlend;
+  /** Usage of the engine's images by role. */
+  VkImageUsageFlags depthUsage;
+  VkImageUsageFlags colorInputUsage;
+  VkImageUsageFlags storageTargetUsage;
+  VkImageUsageFlags blendTargetUsage;
+  VkImageUsageFlags volumeUsage;
+  /** VkPhysicalDeviceFeatures, needed for WLK_COMPOSITE_BLEND only. */
+  uint32_t fragmentStoresAndAtomics;
+} WlkVulkanRequirements;
+
+/** Fills the requirements. Besides them, the device must filter R32, R32G32 and R32G32B32A32 float
+ *  images linearly. [F] */
+WLK_API WlkResult wlkVulkanGetRequirements(WlkVulkanRequirements* requirements);
+
+/** Chained to WlkContextInfo: the engine's device. All fields but pipelineCache are needed. */
+typedef struct WlkVulkanDeviceInfo {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  PFN_vkGetInstanceProcAddr getInstanceProcAddr;
+  VkInstance instance;
+  VkPhysicalDevice physicalDevice;
+  VkDevice device;
+  /** Version the instance and device were created for. At least VK_API_VERSION_1_3. */
+  uint32_t apiVersion;
+  /** Family of the queue that will run the command buffers. */
+  uint32_t queueFamilyIndex;
+  /** 1 if the device was created with dualSrcBlend. Default 0. */
+  uint32_t dualSrcBlendEnabled;
+  uint32_t reserved0;
+  /** May be VK_NULL_HANDLE. */
+  VkPipelineCache pipelineCache;
+} WlkVulkanDeviceInfo;
+
+/** State of an image before or after Welkin's commands. */
+typedef struct WlkVulkanImageState {
+  VkImageLayout layout;
+  uint32_t reserved0;
+  VkPipelineStageFlags2 stages;
+  VkAccessFlags2 access;
+} WlkVulkanImageState;
+
+/** An image of the engine. Welkin moves it from `before` to what it needs and on to `after`;
+ *  `before.layout` must be true (UNDEFINED discards the contents). */
+typedef struct WlkVulkanImage {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  VkImage image;
+  VkFormat format;
+  /** Pixels or voxels; depth 1 for 2-D images. */
+  uint32_t width;
+  uint32_t height;
+  uint32_t depth;
+  WlkVulkanImageState before;
+  WlkVulkanImageState after;
+} WlkVulkanImage;
+
+/** What a view reads and writes. Extents must be the view's. */
+typedef struct WlkVulkanViewTargets {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** The engine's depth buffer, 2-D, single-sampled; null: nothing opaque. Formats D16, D24S8,
+   *  D32F, D32FS8, X8D24 (aspect DEPTH is read) or R32F. Default null. */
+  const WlkVulkanImage* depth;
+  /** COMPUTE: the engine's colour, sampled. Null or the same VkImage as `color`: read from
+   *  `color` itself when it is given here, black when null. Default null. */
+  const WlkVulkanImage* colorInput;
+  /** COMPUTE: written. BLEND: blended onto. Default null. */
+  const WlkVulkanImage* color;
+  /** SEPARATE: written. Default null. */
+  const WlkVulkanImage* radiance;
+  const WlkVulkanImage* transmittance;
+} WlkVulkanViewTargets;
+
+/** Makes a field of a volume read the engine's own 3-D image instead of Welkin's copy; null goes
+ *  back. The image has the volume's size and a format R16_SFLOAT, R32_SFLOAT, R16_UNORM or
+ *  R8_UNORM; the engine writes it in wlkVulkanCmdUpdate's command buffer order and keeps it alive
+ *  until wlkVulkanForgetImage. Values that are negative or not finite count as 0. [C] */
+WLK_API WlkResult wlkVulkanSetVolumeImage(WlkContext context, WlkVolume volume, uint32_t field,
+                                          const WlkVulkanImage* image);
+
+/** Drops the image views that Welkin made of an image; call it before destroying or recreating
+ *  the image. Frames that use it must be complete. [C] */
+WLK_API WlkResult wlkVulkanForgetImage(WlkContext context, VkImage image);
+
+/** Records pending uploads. Outside a render pass, once per frame, before the views. After a change
+ *  of planet, sky or fog without wlkPrepare it also solves for some of the new light, see there.
+ * [C] Errors: WRONG_STATE without wlkBeginFrame; OUT_OF_* after such a change. */
+WLK_API WlkResult wlkVulkanCmdUpdate(WlkContext context, VkCommandBuffer commandBuffer);
+
+/** Records a view. Outside a render pass. Afterwards the command buffer's pipelines, descriptor
+ *  sets, push constants and dynamic state are undefined. At most once per view and frame. [C]
+ *  Errors: WRONG_STATE, NOT_PREPARED, INVALID_ARGUMENT, UNSUPPORTED_FORMAT. */
+WLK_API WlkResult wlkVulkanCmdRenderView(WlkContext context, VkCommandBuffer commandBuffer,
+                                         WlkView view, const WlkVulkanViewTargets* targets);
+
+/* -------------------------------------------------------------------------------- shadow maps */
+
+/** A map of what volumes take from a light, for the engine's own surfaces. */
+typedef struct WlkShadowMap {
+  uint64_t id;
+} WlkShadowMap;
+
+/** What a texel says of the volumes that visible (wlkSetLights) parallel light crosses. */
+enum {
+  /** Optical depth of all of them. R16_SFLOAT or R32_SFLOAT. */
+  WLK_SHADOW_OPTICAL_DEPTH = 0,
+  /** e to the minus that, RGB; alpha 1. R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT. */
+  WLK_SHADOW_TRANSMITTANCE = 1,
+  /** For what stands between or inside them, too. R: optical depth of all of them; G, B: distances
+   * d (m, see WlkShadowMapState) between which it rises evenly: to R * clamp((d - G) / (B - G), 0,
+   *  1). Exact for one homogeneous layer, else its mean and spread are those of the extinction;
+   *  ends go a texel further, so that linear filters may be used.
+   *  A: 0. R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT. */
+  WLK_SHADOW_LAYER = 2
+};
+
+/** An orthographic map along the direction of a light. Texels keep their places in the world while
+ *  the light stands still: the middle moves in steps of a texel. Volumes of any height count. */
+typedef struct WlkShadowMapInfo {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Texels. [1, 8192], default 512 x 512. */
+  uint32_t width;
+  uint32_t height;
+  /** WLK_SHADOW_*. Default OPTICAL_DEPTH. */
+  uint32_t content;
+  /** Index in wlkSetLights. [0, WlkCapabilities::maxLights - 1], default 0. */
+  uint32_t light;
+  /** What the middle shows, for example the eye. World, m, |x| <= 1e9. Default 0. */
+  double center[3];
+  /** Edges of the area, across the light. m, [1, 1e7], default 20000. */
+  double extent[2];
+  /** Most samples of a volume along the light; one per voxel are taken if that suffices. [8, 4096],
+   *  default 512. */
+  uint32_t maxSamples;
+  uint32_t reserved0;
+} WlkShadowMapInfo;
+
+/** Makes a map; the image is the engine's. [C] Errors: INVALID_ARGUMENT, WRONG_STATE outside
+ *  engine-device mode. Needs wlkPrepare. */
+WLK_API WlkResult wlkVulkanCreateShadowMap(WlkContext context, const WlkShadowMapInfo* info,
+                                           WlkShadowMap* map);
+/** Changes it, for example where it lies. Only another size or content needs wlkPrepare. [C] */
+WLK_API WlkResult wlkVulkanSetShadowMap(WlkContext context, WlkShadowMap map,
+                                        const WlkShadowMapInfo* info);
+WLK_API WlkResult wlkVulkanDestroyShadowMap(WlkContext context, WlkShadowMap map); /* [C] */
+
+/** Writes the map to an image of its size (usage STORAGE), after wlkVulkanCmdUpdate and outside a
+ *  render pass; at most once per map and frame. Where light, volumes, area and image are as they
+ *  were, it records nothing but the change from before.layout to after.layout, if they differ: keep
+ *  the image's contents, or give UNDEFINED to have them written anew. A field in an engine's image
+ *  counts as changed each frame. Without light or volumes the map says so once. [C]
+ *  Errors: WRONG_STATE, NOT_PREPARED, INVALID_ARGUMENT, UNSUPPORTED_FORMAT. */
+WLK_API WlkResult wlkVulkanCmdRenderShadowMap(WlkContext context, VkCommandBuffer commandBuffer,
+                                              WlkShadowMap map, const WlkVulkanImage* image);
+
+/** How to read the map that was recorded last, and what that cost. */
+typedef struct WlkShadowMapState {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  uint64_t frameIndex;
+  /** Row-major 3x4: (u, v, d) = M * (x, y, z, 1). u, v: [0, 1] over the map, (0, 0) at the outer
+   *  corner of texel (0, 0). d: m along the light, larger is further from it, 0 near `center`. */
+  double mapFromWorld[12];
+  /** Volumes in it. */
+  uint32_t volumes;
+  uint32_t barriers;
+  uint32_t descriptorWrites;
+  uint32_t reserved0;
+  /** `name`, `reason` and so on of the whole map: WLK_REASON_NEEDED, UNCHANGED, and for a map
+   *  without shadow NO_LIGHT, NOTHING_TO_DRAW (no volume), ZERO_DENSITY, OUTSIDE_VIEW. */
+  WlkPassStats pass;
+} WlkShadowMapState;
+
+/** State of the map in the frame that was recorded last. [C] NOT_READY before the first. */
+WLK_API WlkResult wlkVulkanGetShadowMap(WlkContext context, WlkShadowMap map,
+                                        WlkShadowMapState* state);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

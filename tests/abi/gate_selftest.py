@@ -1,0 +1,190 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Breaks the ABI in every known way and requires that gate.py and exports.py see it; changes that
+keep old programs running must pass. Works on small headers of its own, in the form of the true
+ones. Prints what is not as it should be."""
+import concurrent.futures
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True  # nothing is written to the source tree
+import exports
+import gate
+
+PREAMBLE = """#pragma once
+#include <stdint.h>
+#define WLK_API __attribute__((visibility("default")))
+typedef int32_t WlkResult;
+"""
+TOY = """
+#define WLK_VERSION_MINOR 1
+#define WLK_TOY_SIZE 16u
+enum { WLK_TOY_SUCCESS = 0, WLK_TOY_ERROR = -1 };
+typedef enum WlkToyKind { WLK_TOY_KIND_ONE = 1, WLK_TOY_KIND_TWO = 2 } WlkToyKind;
+typedef void (*WlkToyCallback)(void* user, uint32_t severity);
+typedef struct WlkToy {
+  uint64_t id;
+} WlkToy;
+typedef struct WlkToyPart {
+  float x;
+  uint32_t count;
+} WlkToyPart;
+typedef struct WlkToyInfo {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  WlkToyPart part;
+  uint32_t flags;
+  float scale;
+  WlkToyCallback log;
+  double position[3];
+  uint32_t reserved0;
+  uint32_t last;
+} WlkToyInfo;
+typedef struct WlkToyInner {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  double value;
+} WlkToyInner;
+typedef struct WlkToyOuter {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  WlkToyInner inner;
+  double after;
+} WlkToyOuter;
+typedef struct WlkToyTail {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  uint32_t flags;
+} WlkToyTail;
+WLK_API WlkResult wlkToyMake(WlkToyKind kind, const WlkToyInfo* info, WlkToy* toy);
+WLK_API WlkResult wlkToyChange(WlkToy toy, uint32_t count, const double* values);
+WLK_API double wlkToyValue(WlkToy toy, const WlkToyOuter* outer);
+"""
+
+TYPES = {"abidiff", "abicc"}
+LAYOUT = {"layout"}
+ALL = TYPES | LAYOUT
+
+# (what, text of TOY, what replaces it, checks that must go red; others may)
+HARMLESS = [
+    ("nothing", "", ""),
+    ("a function added", "WLK_API double", "WLK_API void wlkToyNew(uint32_t a);\nWLK_API double"),
+    ("an enumerator added", "KIND_TWO = 2 }", "KIND_TWO = 2, WLK_TOY_KIND_THREE = 3 }"),
+    ("an error code added", "ERROR = -1 }", "ERROR = -1, WLK_TOY_LATE = -2 }"),
+    ("a structure added", "typedef struct WlkToyPart",
+     "typedef struct WlkToyNew {\n  float x;\n} WlkToyNew;\ntypedef struct WlkToyPart"),
+    ("a field at the end", "uint32_t last;\n", "uint32_t last;\n  double more;\n"),
+    ("the version", "MINOR 1", "MINOR 2"),
+    ("reserved room used", "uint32_t reserved0;", "uint32_t mode;"),
+]
+BREAKS = [
+    ("a function removed", "WLK_API double wlkToyValue(WlkToy toy, const WlkToyOuter* outer);\n",
+     "", TYPES),
+    ("a function renamed", "wlkToyValue", "wlkToyWorth", TYPES),
+    ("a parameter widened", "uint32_t count, const", "uint64_t count, const", TYPES),
+    ("a parameter added", "uint32_t count, const", "uint32_t count, uint32_t stride, const", TYPES),
+    ("parameters exchanged", "uint32_t count, const double* values",
+     "const double* values, uint32_t count", TYPES),
+    ("double returned as float", "WLK_API double", "WLK_API float", TYPES),
+    ("an array of other numbers", "const double* values", "const float* values", {"abidiff"}),
+    ("a callback's parameter", "uint32_t severity", "uint64_t severity", {"abidiff"}),
+    ("a field inserted first", "  float x;\n", "  float w;\n  float x;\n", ALL),
+    ("a field inserted in the middle", "  float scale;\n", "  double bias;\n  float scale;\n", ALL),
+    ("a field inserted before the last", "  uint32_t last;\n",
+     "  double bias;\n  uint32_t last;\n", ALL),
+    ("a field removed", "  float scale;\n", "", ALL),
+    ("a field's type, of one size", "float scale", "uint32_t scale", {"abidiff"}),
+    ("a field wider, where padding was", "  uint32_t last;\n", "  uint64_t last;\n",
+     LAYOUT | {"abidiff"}),
+    ("fields exchanged", "  uint32_t flags;\n  float scale;\n",
+     "  float scale;\n  uint32_t flags;\n", ALL),
+    ("a field in the padding at the end", "  uint32_t flags;\n} WlkToyTail",
+     "  uint32_t flags;\n  uint32_t more;\n} WlkToyTail", {"abidiff"}),
+    ("a structure without a head grew", "  uint32_t count;\n}", "  uint32_t count;\n  float y;\n}",
+     ALL),
+    ("a handle wider", "  uint64_t id;\n", "  uint64_t id;\n  uint64_t owner;\n", LAYOUT),
+    ("an embedded structure grew", "  double value;\n",
+     "  double value;\n  double error;\n", LAYOUT),
+    ("an array longer", "position[3]", "position[4]", LAYOUT | {"abidiff"}),
+    ("an enumerator renumbered", "KIND_ONE = 1, WLK_TOY_KIND_TWO = 2",
+     "KIND_ONE = 2, WLK_TOY_KIND_TWO = 1", ALL),
+    ("an enumerator removed", ", WLK_TOY_KIND_TWO = 2", "", LAYOUT | {"abidiff"}),
+    ("an error code changed", "WLK_TOY_ERROR = -1", "WLK_TOY_ERROR = -2", LAYOUT),
+    ("a macro changed", "WLK_TOY_SIZE 16u", "WLK_TOY_SIZE 32u", LAYOUT),
+    ("a macro removed", "#define WLK_TOY_SIZE 16u\n", "", LAYOUT),
+]
+
+
+def write_headers(folder, text):
+    (folder / "welkin").mkdir(parents=True)
+    for name in gate.generate.HEADERS:
+        (folder / "welkin" / name).write_text("" if name != "core.h" else PREAMBLE + text)
+    (folder / "welkin" / "welkin_vulkan.h").write_text('#include "core.h"\n')
+    return folder
+
+
+def verdict(case):
+    """What is wrong with the gate's answer to one change, or None."""
+    what, old, new, *red = case
+    if old not in TOY:
+        return f"{what}: the text to change does not exist"
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = pathlib.Path(temporary)
+        before = write_headers(folder / "before", TOY)
+        after = write_headers(folder / "after", TOY.replace(old, new, 1))
+        found = gate.breaks(before, after, folder)
+    if not red:
+        return f"{what} is harmless, but: {found}" if found else None
+    missed = red[0] - set(found)
+    return f"{what}: not seen by {sorted(missed)}" if missed else None
+
+
+# Libraries: (what, C text, linker's version script, more arguments, a word of the finding).
+PLAIN = "int wlkToy(void) { return 1; }\nint inside(void) { return 2; }\n"
+NODE = "WELKIN_0.1 { global: wlk*; local: *; };\n"
+LIBRARIES = [
+    ("the library as it is", PLAIN, NODE, [], ""),
+    ("a function is gone", "int inside(void) { return 2; }\n", NODE, [], "not exported"),
+    ("another node", PLAIN, NODE.replace("0.1", "0.2"), [], "not exported: wlkToy@@WELKIN_0.1"),
+    ("internals are exported", PLAIN, NODE.replace("wlk*;", "wlk*; inside;"), [], "not listed"),
+    ("Vulkan is taken from the process", "int vkToy(void);\nint wlkToy(void) { return vkToy(); }\n",
+     NODE, [], "symbol of Vulkan"),
+    ("a library more is needed", PLAIN, NODE, ["-Wl,--no-as-needed", "-lz"], "needs libz"),
+    ("a path to libraries", PLAIN, NODE, ["-Wl,-rpath,/opt"], "RUNPATH"),
+]
+
+
+def library_verdict(case):
+    what, text, node, arguments, word = case
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = pathlib.Path(temporary)
+        (folder / "toy.c").write_text(text)
+        (folder / "toy.map").write_text(node)
+        subprocess.run(["gcc", "-w", "-shared", "-fPIC", folder / "toy.c", "-o", folder / "toy.so",
+                        f"-Wl,--version-script={folder / 'toy.map'}", *arguments], check=True)
+        found = list(exports.findings(folder / "toy.so", {"wlkToy@@WELKIN_0.1"}))
+    if not word:
+        return f"{what}: {found}" if found else None
+    return None if any(word in line for line in found) else f"{what}: not seen, but {found}"
+
+
+def main():
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        try:
+            wrong = [*pool.map(verdict, HARMLESS + BREAKS), *pool.map(library_verdict, LIBRARIES)]
+        except gate.Missing as error:
+            sys.exit(str(error))
+    wrong = [line for line in wrong if line]
+    print("\n".join(wrong) if wrong else
+          f"{len(BREAKS) + len(LIBRARIES) - 1} breaks seen, {len(HARMLESS) + 1} changes passed")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
