@@ -34,26 +34,71 @@ void applyFog(WlkContext context, const Scene& scene) {
   check(result, scene.file, "fog");
 }
 
+WlkVolume createVolume(WlkContext context, const Scene& scene, size_t index,
+                       const std::vector<WlkMedium>& media, const std::array<uint32_t, 3>& size,
+                       const Affine& place) {
+  std::vector<WlkVolumeField> fields;
+  for (const FieldDesc& field : scene.volumes[index].fields) {
+    fields.push_back({media[field.medium], static_cast<float>(field.extinctionScale), 0});
+  }
+  auto info = make<WlkVolumeInfo>();
+  std::copy(size.begin(), size.end(), info.size);
+  info.fieldCount = static_cast<uint32_t>(fields.size());
+  info.fieldStride = sizeof(WlkVolumeField);
+  info.fields = fields.data();
+  std::copy(place.begin(), place.end(), info.worldFromVolume);
+  WlkVolume volume{};
+  check(wlkCreateVolume(context, &info, &volume), scene.file, "volumes." + std::to_string(index));
+  return volume;
+}
+
+// Whether all fields are grids of OpenVDB, whose bricks need not become voxels.
+bool sparse(const VolumeDesc& desc) {
+  return std::all_of(desc.fields.begin(), desc.fields.end(), [](const FieldDesc& field) {
+    return std::holds_alternative<VdbInfo>(field.source.info);
+  });
+}
+
+void applyBricks(WlkContext context, const Scene& scene, size_t index,
+                 const std::vector<WlkMedium>& media) {
+  const VolumeDesc& desc = scene.volumes[index];
+  std::vector<VdbSource> sources;
+  for (const FieldDesc& field : desc.fields) {
+    sources.push_back({field.source.file, std::get<VdbInfo>(field.source.info)});
+  }
+  const BrickVolume bricks = loadVdbBricks(sources);
+  // The scene places the active voxels; the volume reaches to whole bricks.
+  const Affine place = placeVolume(bricks.worldFromActive, desc.placement);
+  const auto moved = [&](Vec3 p) {
+    return transformPoint(place, transformPoint(bricks.activeFromVolume, p));
+  };
+  const Vec3 origin = moved({});
+  const WlkVolume volume = createVolume(
+      context, scene, index, media, bricks.size,
+      affineFromEdges(origin, moved({1.0, 0.0, 0.0}) - origin, moved({0.0, 1.0, 0.0}) - origin,
+                      moved({0.0, 0.0, 1.0}) - origin));
+  for (uint32_t i = 0; i < bricks.fields.size(); ++i) {
+    const BrickField& field = bricks.fields[i];
+    auto upload = make<WlkVolumeBricks>();
+    upload.field = i;
+    upload.count = static_cast<uint32_t>(field.coordinates.size() / 3);
+    upload.coordinates = field.coordinates.data();
+    upload.data = field.values.data();
+    upload.dataSize = field.values.size() * sizeof(float);
+    check(wlkUploadVolumeBricks(context, volume, &upload), scene.file,
+          "volumes." + std::to_string(index) + ".fields." + std::to_string(i));
+  }
+}
+
 void applyVolume(WlkContext context, const Scene& scene, size_t index,
                  const std::vector<WlkMedium>& media) {
   const VolumeDesc& desc = scene.volumes[index];
   const std::string key = "volumes." + std::to_string(index);
-  std::vector<WlkVolumeField> fields;
-  for (const FieldDesc& field : desc.fields) {
-    fields.push_back({media[field.medium], static_cast<float>(field.extinctionScale), 0});
-  }
-  Grid grid = loadSource(desc.fields[0].source);
-  auto info = make<WlkVolumeInfo>();
-  std::copy(grid.size.begin(), grid.size.end(), info.size);
-  info.fieldCount = static_cast<uint32_t>(fields.size());
-  info.fieldStride = sizeof(WlkVolumeField);
-  info.fields = fields.data();
-  const Affine place = placeVolume(grid.worldFromVolume, desc.placement);
-  std::copy(place.begin(), place.end(), info.worldFromVolume);
-  WlkVolume volume{};
-  check(wlkCreateVolume(context, &info, &volume), scene.file, key);
+  const Grid grid = loadSource(desc.fields[0].source);
+  const WlkVolume volume = createVolume(context, scene, index, media, grid.size,
+                                        placeVolume(grid.worldFromVolume, desc.placement));
   uploadField(context, scene, volume, 0, grid, key);
-  for (uint32_t i = 1; i < fields.size(); ++i) {
+  for (uint32_t i = 1; i < desc.fields.size(); ++i) {
     const Grid other = loadSource(desc.fields[i].source);
     if (other.size != grid.size) {
       throw InputError(scene.file, key + ".fields." + std::to_string(i) + ".source",
@@ -118,7 +163,11 @@ void applyVolumes(WlkContext context, const Scene& scene, const Progress& progre
   }
   for (size_t i = 0; i < scene.volumes.size(); ++i) {
     progress("volume " + std::to_string(i + 1) + " of " + std::to_string(scene.volumes.size()));
-    applyVolume(context, scene, i, media);
+    if (sparse(scene.volumes[i])) {
+      applyBricks(context, scene, i, media);
+    } else {
+      applyVolume(context, scene, i, media);
+    }
   }
 }
 

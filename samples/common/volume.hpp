@@ -67,6 +67,34 @@ struct VdbInfo {
 /// voxel's centre, so index i becomes the centre of voxel i - min.
 Grid loadVdb(const std::filesystem::path& file, const VdbInfo& info);
 
+/// Most bricks along all edges of a sparse volume together: 2048^3 voxels.
+constexpr uint64_t MAX_BRICKS = uint64_t{1} << 24;
+
+/// One field's bricks of 8^3 voxels, x fastest, as wlkUploadVolumeBricks takes them.
+struct BrickField {
+  std::vector<uint32_t> coordinates;
+  std::vector<float> values;
+};
+
+/// Fields on a common grid, only the bricks that grids store.
+struct BrickVolume {
+  std::array<uint32_t, 3> size{};
+  std::vector<BrickField> fields;
+  /// Where the grids' own coordinates put the active bounding box of all of them, as in Grid.
+  Affine worldFromActive{};
+  /// The volume's unit box in that of the active bounding box: bricks may reach past it.
+  Affine activeFromVolume{};
+};
+
+struct VdbSource {
+  std::filesystem::path file;
+  VdbInfo info;
+};
+
+/// A field of each source, without making anything dense but active tiles. Grids must have the
+/// same transform and a background of 0. Reads each file once.
+BrickVolume loadVdbBricks(const std::vector<VdbSource>& sources);
+
 struct CumulusInfo {
   std::array<uint32_t, 3> size{128, 96, 128};
   uint32_t seed = 1;

@@ -4,9 +4,11 @@
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
 
+#include "common/image.hpp"
 #include "common/volume.hpp"
 #include "expect_input_error.hpp"
 #include "temp_folder.hpp"
+#include "welkin_program.hpp"
 
 namespace {
 
@@ -91,6 +93,127 @@ TEST(HostVdb, RefusesAFileThatIsCutOff) {
     host_test::cutOff(file, keep);
     expectInputError("cut.vdb: expected an OpenVDB file", [&] { host::loadVdb(file, {}); });
   }
+}
+
+// Two grids of one file, with negative indices: where each active voxel of the dense loader is, the
+// bricks have its value, and nothing else.
+TEST(HostVdb, LoadsSeveralGridsAsTheBricksTheyStore) {
+  const host_test::TempFolder folder;
+  const auto density = makeGrid(2.0);
+  density->fill(openvdb::CoordBBox({-13, 2, 5}, {6, 9, 30}), 0.25f, true);
+  density->getAccessor().setValue({-40, 3, 90}, 0.75f);
+  density->setName("density");
+  const auto ice = makeGrid(2.0);
+  ice->getAccessor().setValue({-41, 77, 6}, 0.5f);
+  ice->setName("ice");
+  const std::string file = folder.file("two.vdb");
+  openvdb::io::File(file).write({density, ice});
+  const std::vector<host::VdbSource> sources{{file, {"density", host::UpAxis::Y}},
+                                             {file, {"ice", host::UpAxis::Y}}};
+  const host::BrickVolume volume = host::loadVdbBricks(sources);
+  // Bricks of indices -48 to 7, 0 to 79 and 0 to 95.
+  ASSERT_EQ(volume.size, (std::array<uint32_t, 3>{56, 80, 96}));
+  ASSERT_EQ(volume.fields.size(), 2u);
+  EXPECT_EQ(volume.fields[0].coordinates.size() / 3, 3u * 2 * 4 + 1);
+  EXPECT_EQ(volume.fields[1].coordinates, (std::vector<uint32_t>{0, 9, 0}));
+  for (size_t f = 0; f < 2; ++f) {
+    const host::BrickField& field = volume.fields[f];
+    ASSERT_EQ(field.values.size(), field.coordinates.size() / 3 * 512);
+    const auto accessor = (f == 0 ? density : ice)->getConstAccessor();
+    double sum = 0;
+    for (size_t n = 0; n < field.values.size(); ++n) {
+      const uint32_t* brick = &field.coordinates[n / 512 * 3];
+      const openvdb::Coord at(static_cast<int>(8 * brick[0] + n % 8) - 48,
+                              static_cast<int>(8 * brick[1] + n / 8 % 8),
+                              static_cast<int>(8 * brick[2] + n / 64 % 8));
+      ASSERT_EQ(field.values[n], accessor.getValue(at)) << at;
+      sum += double{field.values[n]};
+    }
+    EXPECT_EQ(sum, f == 0 ? 0.25 * 20 * 8 * 26 + 0.75 : 0.5);
+  }
+  // The box of active voxels, -41 to 6, 2 to 77, 5 to 90, and voxel (0, 0, 0) of the bricks in it.
+  const host::Vec3 low = host::transformPoint(volume.worldFromActive, {});
+  EXPECT_EQ(low.x, -83.0);
+  EXPECT_EQ(low.y, 3.0);
+  EXPECT_EQ(low.z, 9.0);
+  const host::Vec3 p = host::transformPoint(
+      volume.worldFromActive,
+      host::transformPoint(volume.activeFromVolume, {0.5 / 56, 0.5 / 80, 0.5 / 96}));
+  EXPECT_NEAR(p.x, -96.0, 1e-12);
+  EXPECT_NEAR(p.y, 0.0, 1e-12);
+  EXPECT_NEAR(p.z, 0.0, 1e-12);
+}
+
+TEST(HostVdb, RefusesGridsThatDoNotGoTogether) {
+  const host_test::TempFolder folder;
+  const auto one = makeGrid(1.0);
+  one->getAccessor().setValue({0, 0, 0}, 1.0f);
+  one->setName("one");
+  const auto moved = makeGrid(1.5);
+  moved->getAccessor().setValue({0, 0, 0}, 1.0f);
+  moved->setName("moved");
+  auto full = openvdb::FloatGrid::create(2.0f);
+  full->getAccessor().setValue({0, 0, 0}, 1.0f);
+  full->setName("full");
+  const auto far = makeGrid(1.0);
+  far->getAccessor().setValue({-2000000, 0, 0}, 1.0f);
+  far->getAccessor().setValue({2000000, 2000000, 0}, 1.0f);
+  far->setName("far");
+  const std::string file = folder.file("a.vdb");
+  openvdb::io::File(file).write({one, moved, full, far});
+  const auto load = [&](const std::string& first, const std::string& second) {
+    return [&file, first, second] {
+      host::loadVdbBricks({{file, {first, host::UpAxis::Y}}, {file, {second, host::UpAxis::Y}}});
+    };
+  };
+  expectInputError("expected the transform of field 0", load("one", "moved"));
+  expectInputError("expected a background of 0", load("one", "full"));
+  expectInputError("named 'none'; the file has: one, moved, full, far", load("one", "none"));
+  expectInputError("bricks of 8^3 voxels around", load("one", "far"));
+}
+
+// The same box, whether its voxels come as bricks or as raw floats.
+TEST(HostVdb, RendersAsTheSameVoxelsFromAnotherFile) {
+  const host_test::TempFolder folder;
+  const auto density = makeGrid(20.0);
+  std::string raw;
+  for (int n = 0; n < 16 * 8 * 24; ++n) {
+    const openvdb::Coord at(n % 16, n / 16 % 8, n / 128);
+    const double r = (at.asVec3d() - openvdb::Vec3d(8, 4, 11)).length() / 9;
+    // Halves, as bricks are kept, and above 0 in the corners: the box is that of the raw file.
+    const auto value = static_cast<float>(std::ceil(64 * std::max(1 - r, 0.01)) / 64);
+    density->getAccessor().setValue(at, value);
+    raw.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  writeGrid(folder.file("a.vdb"), density);
+  static_cast<void>(folder.write("a.raw", raw));
+  const std::string scene = R"({"sky": {}, "lights": [{"elevation_deg": 40, "azimuth_deg": 110}],
+    "media": {"m": {"particle": "henyey-greenstein"}},
+    "volumes": [{"source": SOURCE, "transform": {"min": [-200, 300, -1000],
+    "size": [400, 200, 300]},
+    "fields": [{"medium": "m", "extinctionScale": 0.02}]}],
+    "camera": {"position": [0, 400, 0], "target": [0, 400, -1000]}, "view": {"size": [32, 24]}})";
+  const auto with = [&](const std::string& source) {
+    std::string text = scene;
+    return text.replace(text.find("SOURCE"), 6, source);
+  };
+  static_cast<void>(folder.write("vdb.json", with(R"({"type": "vdb", "file": "a.vdb"})")));
+  static_cast<void>(
+      folder.write("raw.json", with(R"({"type": "raw", "file": "a.raw", "size": [16, 8, 24]})")));
+  host_test::expectSuccess(folder, "render vdb.json -o vdb.exr");
+  host_test::expectSuccess(folder, "render raw.json -o raw.exr");
+  host_test::expectSuccess(folder, "render raw.json -o none.exr --set volumes=[]");
+  const auto apart = [](const host::Image& a, const host::Image& b) {
+    float most = 0;
+    for (size_t i = 0; i < a.rgba.size(); ++i) {
+      most = std::max(most, std::abs(a.rgba[i] - b.rgba[i]));
+    }
+    return most;
+  };
+  const auto truth = host::readExr(folder.file("raw.exr"));
+  // Files have half floats, of radiances about 0.1.
+  EXPECT_LE(apart(host::readExr(folder.file("vdb.exr")), truth), 2.0f * 0.1f * 0x1p-11f);
+  EXPECT_GT(apart(host::readExr(folder.file("none.exr")), truth), 0.01f);
 }
 
 }  // namespace
