@@ -3,7 +3,8 @@
 """Checks what libwelkin.so gives to and takes from the process: exports.py LIBRARY SYMBOLS_TXT.
 
 Exports exactly the list, each with its version node; takes no vk* symbol, since two users of
-Vulkan in one process must not resolve to each other; needs the C++ runtime and nothing else.
+Vulkan in one process must not resolve to each other, nor one of wlk*, since two copies of Welkin
+must not either; needs the C++ runtime and nothing else.
 """
 import re
 import subprocess
@@ -28,6 +29,10 @@ def findings(library, listed):
     for row in rows:
         if row[-2] in ("U", "w", "v") and re.match(r"(vk|vma|volk)[A-Z]", row[-1]):
             yield f"takes a symbol of Vulkan from the process: {row[-1]}"
+    for line in lines_of("readelf", "-rW", library):
+        own = re.search(r"R_\w+ .*\b(wlk\w+)", line)
+        if own:
+            yield f"calls its own function through the process: {own.group(1)}"
     for line in lines_of("readelf", "-d", library):
         needed = re.search(r"\(NEEDED\).*\[(.+)\]", line)
         if needed and not NEEDED.fullmatch(needed.group(1)):

@@ -140,22 +140,17 @@ def check_client(library, folder):
     return [f"exit status {ran.returncode}", *ran.stderr.splitlines()] if ran.returncode else []
 
 
-def breaks(old, new, folder, checks=("layout", "abidiff", "abicc")):
+def breaks(old, new, folder):
     """{check: findings} of headers `new` against headers `old`."""
     libraries = [headers_library(include, folder / name)
                  for name, include in (("old", old), ("new", new))]
     for library in libraries:
         if isinstance(library, str):
             return {"headers": library.splitlines()}
-    found = {}
-    if "layout" in checks:
-        found["layout"] = check_layout(old, new, folder)
-    if "abidiff" in checks:
-        heads = {name for name, fields in generate.structs(text_of(old))
-                 if fields[:2] == ["sType", "structSize"]}
-        found["abidiff"] = check_abidiff(*libraries, heads)
-    if "abicc" in checks:
-        found["abicc"] = check_abicc(*libraries, folder)
+    heads = {name for name, fields in generate.structs(text_of(old))
+             if fields[:2] == ["sType", "structSize"]}
+    found = {"layout": check_layout(old, new, folder), "abidiff": check_abidiff(*libraries, heads),
+             "abicc": check_abicc(*libraries, folder)}
     return {check: lines for check, lines in found.items() if lines}
 
 

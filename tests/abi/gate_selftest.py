@@ -155,6 +155,8 @@ LIBRARIES = [
     ("internals are exported", PLAIN, NODE.replace("wlk*;", "wlk*; inside;"), [], "not listed"),
     ("Vulkan is taken from the process", "int vkToy(void);\nint wlkToy(void) { return vkToy(); }\n",
      NODE, [], "symbol of Vulkan"),
+    ("its own function is taken from the process",
+     PLAIN + "int wlkOther(void) { return wlkToy(); }\n", NODE, [], "through the process: wlkToy"),
     ("a library more is needed", PLAIN, NODE, ["-Wl,--no-as-needed", "-lz"], "needs libz"),
     ("a path to libraries", PLAIN, NODE, ["-Wl,-rpath,/opt"], "RUNPATH"),
 ]
