@@ -11,7 +11,8 @@ Four checks, because each is blind somewhere:
   see types);
 - abidiff, and abi-compliance-checker: types and signatures (see neither macros nor enumerators
   without a type);
-- client: the baseline's C program, with the baseline's headers, run with the new library.
+- client: the baseline's C program, with the baseline's headers, run with the new library, which
+  must also know the sizes that structures had.
 The two tools compare libraries made from the headers alone, which hold every function's signature
 and every structure; exports.py has compared the headers with the true library's symbols.
 """
@@ -129,15 +130,32 @@ def check_abicc(old, new, folder):
     return compared.stdout.splitlines() if compared.returncode else []
 
 
+def sizes_program():
+    """A C program: does the library still fill structures of the baseline's sizes?"""
+    lines = ["#include <stdio.h>", "#include <welkin/welkin_vulkan.h>", "static double room[8192];",
+             "int main(void) {", "int failures = 0;"]
+    for name, fields in generate.structs(text_of(BASELINE)):
+        if fields[:2] == ["sType", "structSize"]:
+            kind = "WLK_STRUCT" + re.sub(r"([A-Z])", r"_\1", name.removeprefix("Wlk")).upper()
+            lines.append(f"if (wlkInitStruct({kind}, sizeof({name}), room) != WLK_SUCCESS) {{"
+                         f' fprintf(stderr, "{name} of %zu bytes is refused\\n", sizeof({name}));'
+                         " ++failures; }")
+    return "\n".join([*lines, "return failures != 0; }"])
+
+
 def check_client(library, folder):
-    # Its first run made the baseline; that it still succeeds is what an old program notices.
-    program = folder / "client"
-    built = run("gcc", "-std=c99", "-w", f"-I{BASELINE}", BASELINE / "client.c", library,
-                f"-Wl,-rpath,{pathlib.Path(library).parent}", "-lm", "-o", program)
-    if built.returncode != 0:
-        return built.stderr.splitlines()
-    ran = run(program)
-    return [f"exit status {ran.returncode}", *ran.stderr.splitlines()] if ran.returncode else []
+    """An old program: the baseline's consumer, and its structures' sizes."""
+    (folder / "sizes.c").write_text(sizes_program())
+    found = []
+    for source in (BASELINE / "client.c", folder / "sizes.c"):
+        program = folder / source.stem
+        built = run("gcc", "-std=c99", "-w", f"-I{BASELINE}", source, library,
+                    f"-Wl,-rpath,{pathlib.Path(library).parent}", "-lm", "-o", program)
+        ran = built if built.returncode else run(program)
+        if ran.returncode:
+            found += [f"{source.name}: {line}" for line in
+                      [f"exit status {ran.returncode}", *ran.stderr.splitlines()]]
+    return found
 
 
 def breaks(old, new, folder):
