@@ -10,10 +10,22 @@ const int TRANSPORT_COARSE_DIRECTIONS = 26;  // the first of them: on all others
 // Real spherical harmonics of degree < 4 around the direction in which light travels: Y(l, m) is
 // number l l + l + m, mean square 1.
 const int TRANSPORT_TERMS = 16;
-// Of degree < 3: of light scattered once.
-const int FIRST_TERMS = 9;
+// Of light scattered once and twice, over the phase functions: 9 harmonics of degree < 3, or 12
+// functions of a layer: for each side of its plane (first those with a positive z) values in
+// LAYER_RINGS rings of directions, between which it is a polynomial in |z|; then x and y of both
+// sides.
+const int FIRST_TERMS = 12;
+const int LAYER_RINGS = 4;  // of a side, at the nodes of a Gauss quadrature
+const int LAYER_TURNS = 6;  // directions of a ring
+// A layer's responses, over those of no direction: in zenith angles i / (n - 1) pi and azimuths
+// from the light k / (n - 1) pi.
+const int RESPONSE_ZENITHS = 48;
+const int RESPONSE_AZIMUTHS = 24;
 // Nodes of the pair table over the scattering angle, for each (l, m >= 0) of degree < 3.
 const int PAIR_TABLE_NODES = 128;
+
+const int FIRST_ROWS = TRANSPORT_DIRECTIONS * 4;
+const int SECOND_ROWS = TRANSPORT_DIRECTIONS * 7;
 
 struct TransportDirection {
   vec4 step_;   // u, v: cells per slice; path per slice (m); weight
@@ -26,13 +38,15 @@ struct TransportUniforms {
   ivec4 place[TRANSPORT_LEVELS];
   TransportDirection directions[TRANSPORT_LEVELS * TRANSPORT_DIRECTIONS];
   TransportDirection light;       // the light's own, at twice the resolution
-  vec4 harmonics[TRANSPORT_DIRECTIONS * 4];  // of the directions
+  // Of the directions: harmonics; then, from FIRST_ROWS, what they add to the terms of the light
+  // scattered once; from SECOND_ROWS twice. Where harmonics are these terms, the former holds
+  // instead the source of light scattered twice from the terms of that scattered once, and in the
+  // last row's w 1 / the phase function twice.
+  vec4 rows[TRANSPORT_DIRECTIONS * 10 + 1];
   // Of the phase function, once and twice, between two harmonics: row l * 3 + l', m in xyz.
   vec4 products[24];
-  // Source of light scattered twice in each direction, from the terms of that scattered once; in
-  // the last row's w 1 / the phase function twice.
-  vec4 directed[TRANSPORT_DIRECTIONS * 3];
   vec4 lightFrame[3];             // world to the frame of the harmonics, rows
+  vec4 travel;                    // of the light in that frame; w: 1 in a layer
   vec4 worldFromBox[3];           // columns, without the translation
   vec4 gridOrigin;                // of the grid in the unit box, which it may exceed
   vec4 gridSize;

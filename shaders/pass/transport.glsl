@@ -37,6 +37,16 @@ int coarseAt(int term, int cell) {
          volume.size[1].w * term + cell;
 }
 
+bool isLayer() {
+  return volume.travel.w > 0.0f;
+}
+// A layer's responses: of nodes, for light scattered twice and three times; of directions, twice;
+// moments of light scattered twice.
+int responseAt(int node, int order) {
+  return coarseAt(2 * FIRST_TERMS + TRANSPORT_TERMS, 0) + (node * 2 + order) * FIRST_TERMS;
+}
+const int RESPONSE_NODES = RESPONSE_ZENITHS * RESPONSE_AZIMUTHS;
+
 // Lists of `work`. Over all levels: what drives the source, the change of the source; of the level
 // in turn: source and radiance in each direction.
 int driveAt(int level, int term, int cell) {

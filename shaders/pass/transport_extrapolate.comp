@@ -36,6 +36,7 @@ void main() {
   vec3 f = at - floor(at);
   ivec3 low = max(ivec3(floor(at)), ivec3(0));
   ivec3 high = min(ivec3(floor(at)) + 1, coarse - 1);
+  bool layer = isLayer();
   float part = 0.0f;
   for (int term = 0; term < TERMS; ++term) {
     float sum = 0.0f;
@@ -48,8 +49,9 @@ void main() {
     }
     int own = termAt(term, 0, cell);
     float change = STEP * (kept[own] - sum);
-    if (term == 0 || term == FIRST_TERMS || term == 2 * FIRST_TERMS) {
-      // Means over all directions, which bound the rest.
+    bool value = layer && term < 2 * FIRST_TERMS && term % FIRST_TERMS < 2 * LAYER_RINGS;
+    if (value || term == 0 || term == FIRST_TERMS || term == 2 * FIRST_TERMS) {
+      // Means over all directions, which bound the rest, or over those of a ring.
       float most = MOST * max(kept[own], 0.0f);
       part = abs(change) > most ? most / abs(change) : 1.0f;
     }

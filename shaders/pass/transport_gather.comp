@@ -26,6 +26,10 @@ void main() {
   for (int term = 0; term < TRANSPORT_TERMS; ++term) {
     sum[term] = 0.0f;
   }
+  bool layer = first && isLayer();
+  int base = layer ? (second ? SECOND_ROWS : FIRST_ROWS) : 0;
+  int stride = layer ? 3 : 4;  // a layer's terms of the last row are not used
+  bool shaped = second && !layer;
   int directions = volume.place[level].y;
   int direction = 0;
   do {
@@ -35,9 +39,9 @@ void main() {
                                            work[radianceAt(level, direction, rays.index.y)],
                                            work[radianceAt(level, direction, rays.index.z)],
                                            work[radianceAt(level, direction, rays.index.w)]));
-    radiance *= second ? d.step_.w * volume.directed[direction * 3 + 2].w : d.step_.w;
+    radiance *= shaped ? d.step_.w * volume.rows[FIRST_ROWS + direction * 3 + 2].w : d.step_.w;
     for (int row = 0; row < 4; ++row) {
-      vec4 y = volume.harmonics[direction * 4 + row];
+      vec4 y = volume.rows[base + direction * stride + row];
       sum[row * 4 + 0] += y.x * radiance;
       sum[row * 4 + 1] += y.y * radiance;
       sum[row * 4 + 2] += y.z * radiance;
@@ -55,7 +59,11 @@ void main() {
     for (int l = 0; l < 4; ++l) {
       for (int m = -l; m <= l; ++m) {
         float drive = 0.0f;
-        for (int k = 0; k < 3; ++k) {
+        int from = responseAt(RESPONSE_NODES + directions + l * l + l + m, 0);
+        for (int k = 0; k < (layer ? FIRST_TERMS : 0); ++k) {
+          drive += kept[from + k] * sum[k];
+        }
+        for (int k = 0; k < (layer ? 0 : 3); ++k) {
           if (abs(m) <= k) {
             drive += volume.products[(second ? 12 : 0) + l * 3 + k][abs(m)] * sum[k * k + k + m];
           }

@@ -14,17 +14,28 @@ void main() {
   }
   int directions = volume.place[level].y;
   if ((push.flags & TRANSPORT_SECOND_SWEEP) != 0u) {
+    bool layer = isLayer();
     vec4 a = vec4(kept[firstAt(0, cell)], kept[firstAt(1, cell)], kept[firstAt(2, cell)],
                   kept[firstAt(3, cell)]);
     vec4 b = vec4(kept[firstAt(4, cell)], kept[firstAt(5, cell)], kept[firstAt(6, cell)],
                   kept[firstAt(7, cell)]);
-    float c = kept[firstAt(8, cell)];
+    vec4 c = vec4(kept[firstAt(8, cell)], kept[firstAt(9, cell)], kept[firstAt(10, cell)],
+                  kept[firstAt(11, cell)]);
+    c.yzw = layer ? c.yzw : vec3(0.0f);
     float scattered = kept[momentAt(level, 0, cell)];
     int of = 0;
     do {
-      float sum = dot(a, volume.directed[of * 3]) + dot(b, volume.directed[of * 3 + 1]) +
-                  c * volume.directed[of * 3 + 2].x;
-      work[directedAt(level, of, cell)] = max(scattered * sum, 0.0f);
+      vec4 x = volume.rows[FIRST_ROWS + of * 3];
+      vec4 y = volume.rows[FIRST_ROWS + of * 3 + 1];
+      vec4 z = volume.rows[FIRST_ROWS + of * 3 + 2];
+      if (layer) {
+        int at = responseAt(RESPONSE_NODES + of, 0);
+        x = vec4(kept[at], kept[at + 1], kept[at + 2], kept[at + 3]);
+        y = vec4(kept[at + 4], kept[at + 5], kept[at + 6], kept[at + 7]);
+        z = vec4(kept[at + 8], kept[at + 9], kept[at + 10], kept[at + 11]);
+      }
+      work[directedAt(level, of, cell)] =
+          max(scattered * (dot(a, x) + dot(b, y) + dot(c, z)), 0.0f);
       of += 1;
     } while (of < directions);
     return;
@@ -58,7 +69,7 @@ void main() {
   do {
     float sum = 0.0f;
     for (int row = 0; row < 4; ++row) {
-      vec4 y = volume.harmonics[direction * 4 + row];
+      vec4 y = volume.rows[direction * 4 + row];
       sum += y.x * source[row * 4] + y.y * source[row * 4 + 1] + y.z * source[row * 4 + 2] +
              y.w * source[row * 4 + 3];
     }

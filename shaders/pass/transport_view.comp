@@ -18,6 +18,37 @@ vec3 pair(int function, float x) {
   return mix(pairs[at].xyz, pairs[at + 1].xyz, x - float(node));
 }
 
+// Light of a layer scattered once and twice, scattered to direction d again: the pair of phase
+// functions times the mean, over what they pass on, of what the place makes of it.
+vec3 layerFirst(int cell, vec3 d, float node) {
+  float u = acos(clamp(d.z, -1.0f, 1.0f)) * (float(RESPONSE_ZENITHS - 1) / 3.14159265f);
+  float azimuth = abs(d.x) + abs(d.y) > 1.0e-12f ? atan(d.y, d.x) : 0.0f;
+  float side = azimuth < 0.0f ? -1.0f : 1.0f;
+  float w = abs(azimuth) * (float(RESPONSE_AZIMUTHS - 1) / 3.14159265f);
+  int i = clamp(int(u), 0, RESPONSE_ZENITHS - 2);
+  int k = clamp(int(w), 0, RESPONSE_AZIMUTHS - 2);
+  vec2 f = clamp(vec2(u - float(i), w - float(k)), 0.0f, 1.0f);
+  vec4 weights = vec4((1.0f - f.x) * (1.0f - f.y), f.x * (1.0f - f.y), (1.0f - f.x) * f.y,
+                      f.x * f.y);
+  vec3 sum = vec3(0.0f);
+  for (int order = 0; order < 2; ++order) {
+    ivec4 at = ivec4(responseAt(i * RESPONSE_AZIMUTHS + k, order),
+                     responseAt((i + 1) * RESPONSE_AZIMUTHS + k, order),
+                     responseAt(i * RESPONSE_AZIMUTHS + k + 1, order),
+                     responseAt((i + 1) * RESPONSE_AZIMUTHS + k + 1, order));
+    float part = 0.0f;
+    for (int term = 0; term < FIRST_TERMS; ++term) {
+      float response = dot(weights, vec4(kept[at.x + term], kept[at.y + term],
+                                         kept[at.z + term], kept[at.w + term]));
+      // Those of sin(azimuth) are odd.
+      response *= term == 9 || term == 11 ? side : 1.0f;
+      part += response * kept[firstAt(order * FIRST_TERMS + term, cell)];
+    }
+    sum += max(part, 0.0f) * pair(order * 6, node);
+  }
+  return sum;
+}
+
 void main() {
   int cell = int(gl_GlobalInvocationID.x);
   ivec3 size = volume.size[0].xyz;
@@ -36,12 +67,14 @@ void main() {
   float y = d.y;
   float z = d.z;
 
-  float node = acos(z) * (float(PAIR_TABLE_NODES - 1) / 3.14159265f);
+  bool layer = isLayer();
+  float towards = clamp(dot(volume.travel.xyz, d), -1.0f, 1.0f);
+  float node = acos(towards) * (float(PAIR_TABLE_NODES - 1) / 3.14159265f);
   float s2 = max(x * x + y * y, 1.0e-20f);
   vec2 one = vec2(x, y) * inversesqrt(s2);                      // cos and sin of the azimuth
   vec2 two = vec2(x * x - y * y, 2.0f * x * y) / s2;            // of twice the azimuth
   vec3 first = vec3(0.0f);
-  for (int order = 0; order < 2; ++order) {
+  for (int order = 0; order < (layer ? 0 : 2); ++order) {
     int term = order * FIRST_TERMS;
     int f = order * 6;
     first += kept[firstAt(term, cell)] * pair(f, node) +
@@ -53,6 +86,9 @@ void main() {
                  pair(f + 4, node) +
              (kept[firstAt(term + 8, cell)] * two.x + kept[firstAt(term + 4, cell)] * two.y) *
                  pair(f + 5, node);
+  }
+  if (layer) {
+    first = layerFirst(cell, d, node);
   }
   first *= kept[momentAt(0, 0, cell)];
 

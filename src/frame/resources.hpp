@@ -44,7 +44,7 @@ vk::PipelineKey eyeKey(const EyeVariant& variant, uint32_t fields, const SliceQu
 inline constexpr std::array TRANSPORT_PASSES{
     vk::Pass::TransportDepth,  vk::Pass::TransportCells,       vk::Pass::TransportSweep,
     vk::Pass::TransportGather, vk::Pass::TransportExtrapolate, vk::Pass::TransportRestrict,
-    vk::Pass::TransportSource, vk::Pass::TransportView};
+    vk::Pass::TransportSource, vk::Pass::TransportResponse,    vk::Pass::TransportView};
 vk::PipelineKey transportKey(vk::Pass pass, uint32_t fields);
 vk::PipelineKey skyTableKey(uint32_t air, bool fog, uint32_t lights, bool allLight);
 struct CompositeVariant {

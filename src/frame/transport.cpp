@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "frame/transport_layer.hpp"
 #include "frame/transport_rays.hpp"
 #include "tables/transport_phase.hpp"
 
@@ -75,6 +76,69 @@ void fillDirected(const TransportMedia& media, const glm::dvec3& w, const glm::d
   rows[2] = glm::vec4(glm::dvec4(f[5] * cos2, 0, 0, 1 / std::max(f[0], 1e-6)));
 }
 
+// Directions of a grid, and their weights; of the first 26 alone, too.
+struct TransportFan {
+  std::array<glm::dvec3, DIRECTIONS> direction{};
+  std::array<double, DIRECTIONS> fine{};
+  std::array<double, TransportQuadrature::COARSE> coarse{};
+};
+
+void fillHarmonics(const glm::dvec3& local, glm::vec4* rows) {
+  const auto terms = transportHarmonics(local);
+  for (size_t term = 0; term < TERMS; ++term) {
+    rows[term / 4][static_cast<int>(term % 4)] = static_cast<float>(terms[term]);
+  }
+}
+
+// Harmonics around the light, tied to the box's axis that is farthest from it.
+TransportFan cubeFan(const TransportMedia& media, const glm::dmat3& box,
+                     const TransportShape& shape, const glm::dvec3& travel,
+                     TransportUniforms& out) {
+  const glm::dmat3 turn = transportTurn(box);
+  glm::dvec3 side = turn[0];
+  for (int i = 1; i < 3; ++i) {
+    const glm::dvec3 other = turn[i];
+    side = std::abs(glm::dot(other, travel)) < std::abs(glm::dot(side, travel)) ? other : side;
+  }
+  const glm::dvec3 x = glm::normalize(side - travel * glm::dot(side, travel));
+  const glm::dvec3 y = glm::cross(travel, x);
+  out.lightFrame[0] = glm::vec4(glm::vec3(x), 0);
+  out.lightFrame[1] = glm::vec4(glm::vec3(y), 0);
+  out.lightFrame[2] = glm::vec4(glm::vec3(travel), 0);
+  out.travel = {0, 0, 1, 0};
+  const TransportQuadrature q = transportQuadrature();
+  const TransportFan fan{transportDirectionsIn(box, shape), q.fine, q.coarse};
+  for (size_t d = 0; d < DIRECTIONS; ++d) {
+    const glm::dvec3 w = fan.direction[d];
+    fillHarmonics({glm::dot(w, x), glm::dot(w, y), std::clamp(glm::dot(w, travel), -1.0, 1.0)},
+                  &out.rows[d * 4]);
+    fillDirected(media, w, x, y, travel, &out.rows[interface_::FIRST_ROWS + d * 3]);
+  }
+  return fan;
+}
+
+// Harmonics around a layer's normal, and its own terms.
+TransportFan layerFan(const TransportMedia& media, const glm::dmat3& box,
+                      const TransportShape& shape, const glm::dvec3& travel,
+                      TransportUniforms& out) {
+  const TransportLayer layer = transportLayer(box, shape.thinAxis, travel);
+  TransportFan fan;
+  std::array<double, TransportLayer::COUNT> twice;
+  for (size_t d = 0; d < TransportLayer::COUNT; ++d) {
+    fan.direction[d] = layer.direction[d];
+    fan.fine[d] = layer.weight[d];
+    fillHarmonics(layer.local[d], &out.rows[d * 4]);
+    const double cosine = std::clamp(glm::dot(layer.local[d], layer.travel), -1.0, 1.0);
+    twice[d] = std::max(pairValue(media, 0, std::acos(cosine)), 1e-6);
+  }
+  for (size_t i = 0; i < 3; ++i) {
+    out.lightFrame[i] = glm::vec4(glm::vec3(layer.frame[i]), 0);
+  }
+  out.travel = glm::vec4(glm::vec3(layer.travel), 1);
+  fillLayerRows(layer, twice, out.rows);
+  return fan;
+}
+
 }  // namespace
 
 uint32_t transportImageEdge(uint32_t edge) {
@@ -83,6 +147,7 @@ uint32_t transportImageEdge(uint32_t edge) {
 
 TransportShape transportShape(const VolumeState& volume, uint32_t edge) {
   constexpr double FLAT = 0.4;  // of the longest edge
+  constexpr double LAYER = 0.1;
   glm::dvec3 low(1);
   glm::dvec3 high(0);
   for (uint32_t f = 0; f < volume.fieldCount; ++f) {
@@ -115,6 +180,7 @@ TransportShape transportShape(const VolumeState& volume, uint32_t edge) {
     }
   }
   shape.cells = {edge, edge, edge};
+  shape.layer = shape.thinAxis >= 0 && extent[shape.thinAxis] < LAYER * longest;
   if (shape.thinAxis >= 0) {
     return shape;
   }
@@ -139,7 +205,11 @@ TransportShape transportShape(const VolumeState& volume, uint32_t edge) {
   return shape;
 }
 
-uint32_t transportDirections(uint32_t level, const std::array<uint32_t, 3>& cells) {
+uint32_t transportDirections(uint32_t level, const TransportShape& shape) {
+  if (shape.layer) {
+    return TransportLayer::COUNT;
+  }
+  const std::array<uint32_t, 3>& cells = shape.cells;
   // Light is extrapolated over the two finest levels, which have to see the same directions.
   return level < 2 && cells[0] * cells[1] * cells[2] > FINE_CELLS ? DIRECTIONS : COARSE;
 }
@@ -154,10 +224,13 @@ TransportSizes transportSizes(const std::array<uint32_t, 3>& cells) {
   const VkDeviceSize finest = sizes.cells[0];
   constexpr VkDeviceSize TWO = 2;
   constexpr VkDeviceSize FIRST = interface_::FIRST_TERMS;
-  sizes.workBytes =
-      sizeof(float) * (TWO * TERMS * total + TWO * transportDirections(0, cells) * finest);
-  sizes.keptBytes = sizeof(float) * (VkDeviceSize{6 + TERMS} * total + TWO * FIRST * finest +
-                                     (TWO * FIRST + TERMS) * sizes.cells[1]);
+  constexpr VkDeviceSize RESPONSES =
+      VkDeviceSize{interface_::RESPONSE_ZENITHS} * interface_::RESPONSE_AZIMUTHS +
+      TransportLayer::COUNT + TERMS;
+  sizes.workBytes = sizeof(float) * (TWO * TERMS * total + VkDeviceSize{TWO * DIRECTIONS} * finest);
+  sizes.keptBytes =
+      sizeof(float) * (VkDeviceSize{6 + TERMS} * total + TWO * FIRST * finest +
+                       (TWO * FIRST + TERMS) * sizes.cells[1] + TWO * FIRST * RESPONSES);
   return sizes;
 }
 
@@ -194,6 +267,7 @@ TransportMedia transportMedia(const VolumeState& volume) {
     }
   }
   media.response = pairs.response;
+  media.response.insert(media.response.end(), pairs.once.begin(), pairs.once.end());
   return media;
 }
 
@@ -203,22 +277,13 @@ void fillTransport(const VolumeState& volume, const glm::dvec3& toLight,
   const glm::dmat3 box(volume.worldFromBox);
   const glm::dmat3 boxFromWorld = glm::inverse(box);
   const TransportSizes sizes = transportSizes(shape.cells);
-  const glm::dmat3 turn = transportTurn(box);
-  // Around the light, tied to the box's axis that is farthest from it.
   const glm::dvec3 travel = -toLight;
-  glm::dvec3 side = turn[0];
-  for (int i = 1; i < 3; ++i) {
-    const glm::dvec3 other = turn[i];
-    side = std::abs(glm::dot(other, travel)) < std::abs(glm::dot(side, travel)) ? other : side;
+  TransportFan fan;
+  if (shape.layer) {
+    fan = layerFan(*volume.transport, box, shape, travel, out);
+  } else {
+    fan = cubeFan(*volume.transport, box, shape, travel, out);
   }
-  const glm::dvec3 x = glm::normalize(side - travel * glm::dot(side, travel));
-  const glm::dvec3 y = glm::cross(travel, x);
-  out.lightFrame[0] = glm::vec4(glm::vec3(x), 0);
-  out.lightFrame[1] = glm::vec4(glm::vec3(y), 0);
-  out.lightFrame[2] = glm::vec4(glm::vec3(travel), 0);
-
-  const TransportQuadrature q = transportQuadrature();
-  const auto travels = transportDirectionsIn(box, shape);
   int place = 0;
   for (int level = 0; level < LEVELS; ++level) {
     const int count = static_cast<int>(sizes.cells[static_cast<size_t>(level)]);
@@ -226,22 +291,13 @@ void fillTransport(const VolumeState& volume, const glm::dvec3& toLight,
       out.size[level][i] = static_cast<int>(shape.cells[static_cast<size_t>(i)] >> level);
     }
     out.size[level].w = count;
-    const uint32_t directions = transportDirections(static_cast<uint32_t>(level), shape.cells);
+    const uint32_t directions = transportDirections(static_cast<uint32_t>(level), shape);
     out.place[level] = {place, static_cast<int>(directions), 0, 0};
     place += count;
     for (size_t d = 0; d < directions; ++d) {
-      out.directions[static_cast<size_t>(level) * DIRECTIONS + d] =
-          transportDirection(transportCellsFromWorld(boxFromWorld, shape, 1.0 / (1 << level)),
-                             travels[d], directions == DIRECTIONS ? q.fine[d] : q.coarse[d]);
-    }
-  }
-  for (size_t d = 0; d < DIRECTIONS; ++d) {
-    const glm::dvec3 w = travels[d];
-    const auto terms = transportHarmonics(
-        {glm::dot(w, x), glm::dot(w, y), std::clamp(glm::dot(w, travel), -1.0, 1.0)});
-    fillDirected(*volume.transport, w, x, y, travel, &out.directed[d * 3]);
-    for (size_t term = 0; term < TERMS; ++term) {
-      out.harmonics[d * 4 + term / 4][static_cast<int>(term % 4)] = static_cast<float>(terms[term]);
+      out.directions[static_cast<size_t>(level) * DIRECTIONS + d] = transportDirection(
+          transportCellsFromWorld(boxFromWorld, shape, 1.0 / (1 << level)), fan.direction[d],
+          directions == TransportQuadrature::COARSE ? fan.coarse[d] : fan.fine[d]);
     }
   }
   out.light = transportDirection(transportCellsFromWorld(boxFromWorld, shape, 2.0), travel, 1);

@@ -15,7 +15,8 @@ struct TransportShape {
   std::array<uint32_t, 3> cells{};
   glm::dvec3 origin{0};  // in the unit box
   glm::dvec3 size{1};
-  int thinAxis = -1;  // of a flat one
+  int thinAxis = -1;   // of a flat one
+  bool layer = false;  // much wider than high, see transport_layer.hpp
 };
 // At most edge^3 cells, edge a multiple of 8, and transportImageEdge(edge) along an axis.
 TransportShape transportShape(const VolumeState& volume, uint32_t edge);
@@ -29,7 +30,7 @@ struct TransportSizes {
 };
 TransportSizes transportSizes(const std::array<uint32_t, 3>& cells);
 // In which light travels there.
-uint32_t transportDirections(uint32_t level, const std::array<uint32_t, 3>& cells);
+uint32_t transportDirections(uint32_t level, const TransportShape& shape);
 
 // Numbers of a volume's media: what transport takes for the peak, and the rest's moments.
 struct TransportMedia {

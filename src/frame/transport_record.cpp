@@ -23,15 +23,22 @@ constexpr uint32_t GROUP = 64;
 class TransportRecorder {
  public:
   TransportRecorder(const vk::Device& device, const vk::Pipelines& pipelines,
-                    VkCommandBuffer commands, const std::array<uint32_t, 3>& cells, uint32_t fields)
+                    VkCommandBuffer commands, const TransportShape& shape, uint32_t fields)
       : vk_(device.vk()),
         pipelines_(pipelines),
         commands_(commands),
-        cells_(cells),
+        shape_(shape),
         fields_(fields),
-        sizes_(transportSizes(cells)) {}
+        sizes_(transportSizes(shape.cells)) {}
 
   void compute() {
+    if (shape_.layer) {
+      const uint32_t directions = transportDirections(0, shape_);
+      dispatch(vk::Pass::TransportResponse, 0, 0,
+               interface_::RESPONSE_ZENITHS * interface_::RESPONSE_AZIMUTHS + directions +
+                   interface_::TRANSPORT_TERMS,
+               1);
+    }
     dispatch(vk::Pass::TransportDepth, 0, 0, 4 * rays(0), 1);
     for (uint32_t level = 0; level < interface_::TRANSPORT_LEVELS; ++level) {
       dispatch(vk::Pass::TransportCells, level, 0, sizes_.cells[level], 1);
@@ -62,15 +69,15 @@ class TransportRecorder {
 
   // At most, of a direction.
   uint32_t rays(uint32_t level) const {
-    const uint32_t x = cells_[0] >> level;
-    const uint32_t y = cells_[1] >> level;
-    const uint32_t z = cells_[2] >> level;
+    const uint32_t x = shape_.cells[0] >> level;
+    const uint32_t y = shape_.cells[1] >> level;
+    const uint32_t z = shape_.cells[2] >> level;
     return std::max({x * y, y * z, z * x});
   }
 
   void sweep(uint32_t level, uint32_t flags) {
     dispatch(vk::Pass::TransportSweep, level, flags, rays(level),
-             transportDirections(level, cells_));
+             transportDirections(level, shape_));
     dispatch(vk::Pass::TransportGather, level, flags, sizes_.cells[level], 1);
   }
 
@@ -113,7 +120,7 @@ class TransportRecorder {
   const vk::Dispatch& vk_;
   const vk::Pipelines& pipelines_;
   VkCommandBuffer commands_;
-  std::array<uint32_t, 3> cells_;
+  TransportShape shape_;
   uint32_t fields_;
   TransportSizes sizes_;
 };
@@ -177,7 +184,7 @@ TransportCommands recordTransport(const vk::Device& device, const vk::Pipelines&
                  pipelines.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   device.vk().CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
                                     pipelines.transportLayout(), 0, 1, &set.set, 0, nullptr);
-  TransportRecorder recorder(device, pipelines, commands, shape.cells, state.fieldKind());
+  TransportRecorder recorder(device, pipelines, commands, shape, state.fieldKind());
   if (!remembered(grid, uniforms, planned.id, state.version) || always || external) {
     recorder.compute();
   }

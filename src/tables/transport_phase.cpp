@@ -268,6 +268,25 @@ void firstMoments(const Moments& before, TransportPairs::Products& result) {
   }
 }
 
+// 4 pi P', linear in y, around the pair table's nodes: mean over samples between their neighbours'
+// middles.
+void writeOnce(const std::vector<double>& y, const std::vector<double>& p, float* result) {
+  constexpr int SAMPLES = 16;
+  for (size_t node = 0; node < PAIR_NODES; ++node) {
+    double sum = 0;
+    for (int i = 0; i < SAMPLES; ++i) {
+      const double place = static_cast<double>(node) + (i + 0.5) / SAMPLES - 0.5;
+      const double at = 2 * squared(std::sin(PI / 2 * place / (PAIR_NODES - 1)));
+      const auto above = std::clamp<ptrdiff_t>(std::upper_bound(y.begin(), y.end(), at) - y.begin(),
+                                               1, static_cast<ptrdiff_t>(y.size()) - 1);
+      const auto k = static_cast<size_t>(above);
+      const double part = (at - y[k - 1]) / (y[k] - y[k - 1]);
+      sum += (1 - part) * p[k - 1] + part * p[k];
+    }
+    result[node * 4] = static_cast<float>(sum / (SAMPLES * INV_4PI));
+  }
+}
+
 }  // namespace
 
 TransportPhase transportPhase(const PhaseCurve& curve) {
@@ -322,6 +341,10 @@ TransportPairs transportPairs(std::span<const TransportPhase* const> media,
     for (size_t l = 0; l < mean.size(); ++l) {
       mean[l] += exact[l] / SOURCE_CHANNELS;
     }
+  }
+  pairs.once.resize(PAIR_NODES * 4);
+  for (size_t c = 0; c < SOURCE_CHANNELS; ++c) {
+    writeOnce(y, p[c], &pairs.once[c]);
   }
   std::array<Moments, SOURCE_CHANNELS> twice = chi;
   for (Moments& moments : twice) {

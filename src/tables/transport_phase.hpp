@@ -49,6 +49,8 @@ struct TransportPairs {
   // Integral over directions w of 4 pi P'(w v) P'(w s) Y_lm(w), RGB and a 0, for v at azimuth 0:
   // [function][node][4]; then as many with P' scattered twice instead of P'(w s).
   std::vector<float> response;
+  // 4 pi P' around each node, mean over the distance of two, in the same layout.
+  std::vector<float> once;
   // Integral of P'(w s) Y_lm(w) Y_l'm(w), mean over the channels: [l][l'][m], m <= min(l, l'); and
   // with P' scattered twice.
   Products first{};

@@ -15,6 +15,7 @@
 #include "transport_depth_comp_spv.h"
 #include "transport_extrapolate_comp_spv.h"
 #include "transport_gather_comp_spv.h"
+#include "transport_response_comp_spv.h"
 #include "transport_restrict_comp_spv.h"
 #include "transport_source_comp_spv.h"
 #include "transport_sweep_comp_spv.h"
@@ -221,6 +222,8 @@ Pipelines::Compute Pipelines::computeOf(Pass pass) const {
       return {transport_gather_comp_spv, transportLayout_};
     case Pass::TransportExtrapolate:
       return {transport_extrapolate_comp_spv, transportLayout_};
+    case Pass::TransportResponse:
+      return {transport_response_comp_spv, transportLayout_};
     case Pass::TransportRestrict:
       return {transport_restrict_comp_spv, transportLayout_};
     case Pass::TransportSource:

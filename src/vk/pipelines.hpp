@@ -24,6 +24,7 @@ enum class Pass : uint32_t {
   TransportGather,
   TransportExtrapolate,
   TransportRestrict,
+  TransportResponse,
   TransportSource,
   TransportView,
   ShadowMap,
