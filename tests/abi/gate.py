@@ -60,7 +60,7 @@ def frozen_layout(include):
     """C asserts of the baseline that structures which only grew still pass."""
     text = text_of(include)
     asserts = generate.layout(text, include)
-    grows = set(re.findall(r"HEAD\((\w+)\)", asserts))
+    grows = set(generate.growing(text))
     lines = []
     for statement in asserts.replace("; ", ";\n").splitlines():
         size = re.match(r"SIZE\((\w+), (\d+)\);", statement)
@@ -96,21 +96,22 @@ def check_layout(old, new, folder):
     return re.findall(r"error: (.*)", compiled.stderr) if compiled.returncode else []
 
 
-def only_grew(match, heads):
-    """True for a structure with a head that grew behind its old end: the library reads what both
-    sides know. In the padding of the old end it would read what no old caller has set."""
+def only_grew(match, may_grow):
+    """True for a structure of a size that callers tell, which grew behind its old end: the library
+    reads what both sides know. In the padding of the old end it would read what no old caller has
+    set."""
     grew = GREW.fullmatch(match[2])
-    return bool(grew) and match[1] in heads and all(
+    return bool(grew) and match[1] in may_grow and all(
         int(offset) >= int(grew[1]) for offset in re.findall(r"at offset (\d+)", grew[2]))
 
 
-def check_abidiff(old, new, heads):
+def check_abidiff(old, new, may_grow):
     # Not by abidiff's own rules of suppression: "inserted at the end" also hides other changes of
     # the same structure, such as a field's type.
     compared = run("abidiff", "--no-added-syms", "--leaf-changes-only", old, new)
     if compared.returncode == 0:
         return []
-    rest = CHANGED.sub(lambda match: "" if only_grew(match, heads) else match[0],
+    rest = CHANGED.sub(lambda match: "" if only_grew(match, may_grow) else match[0],
                        compared.stdout + "\n")
     lines = [line for line in rest.splitlines() if line.strip() and "summary:" not in line]
     if not CHANGED.search(compared.stdout + "\n") and not lines:
@@ -165,9 +166,8 @@ def breaks(old, new, folder):
     for library in libraries:
         if isinstance(library, str):
             return {"headers": library.splitlines()}
-    heads = {name for name, fields in generate.structs(text_of(old))
-             if fields[:2] == ["sType", "structSize"]}
-    found = {"layout": check_layout(old, new, folder), "abidiff": check_abidiff(*libraries, heads),
+    grows = set(generate.growing(text_of(old)))
+    found = {"layout": check_layout(old, new, folder), "abidiff": check_abidiff(*libraries, grows),
              "abicc": check_abicc(*libraries, folder)}
     return {check: lines for check, lines in found.items() if lines}
 

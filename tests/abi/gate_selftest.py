@@ -31,10 +31,15 @@ typedef struct WlkToyPart {
   float x;
   uint32_t count;
 } WlkToyPart;
+typedef struct WlkToyItem {
+  double y;
+} WlkToyItem;
 typedef struct WlkToyInfo {
   uint32_t sType;
   uint32_t structSize;
   const void* next;
+  const WlkToyItem* items;
+  uint32_t itemStride;
   WlkToyPart part;
   uint32_t flags;
   float scale;
@@ -80,6 +85,7 @@ HARMLESS = [
     ("a structure added", "typedef struct WlkToyPart",
      "typedef struct WlkToyNew {\n  float x;\n} WlkToyNew;\ntypedef struct WlkToyPart"),
     ("a field at the end", "uint32_t last;\n", "uint32_t last;\n  double more;\n"),
+    ("an array's structure, with a stride", "  double y;\n", "  double y;\n  double z;\n"),
     ("the version", "MINOR 1", "MINOR 2"),
     ("reserved room used", "uint32_t reserved0;", "uint32_t mode;"),
 ]

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes symbols.txt and layout_test.c from the public headers, or with --check compares.
+"""Writes symbols.txt, fixed.txt and layout_test.c from the public headers; --check compares.
 
-Run it after an intended change of the API; the diff of the two files is then the ABI change to
+Run it after an intended change of the API; the diff of these files is then the ABI change to
 review. The offsets come from the compiler, so x86-64 Linux with gcc is needed.
 """
 import argparse
@@ -62,6 +62,29 @@ def structs(text):
         yield name, fields
 
 
+def growing(text):
+    """Structures whose size the caller tells: in themselves, or as the stride of an array."""
+    for name, fields in structs(text):
+        if fields[:2] == ["sType", "structSize"]:
+            yield name
+    for _, body in re.findall(r"typedef struct (\w+) \{(.*?)\} \1;", text, flags=re.S):
+        if re.search(r"\w*[sS]tride;", body):
+            yield from re.findall(r"const (Wlk\w+)\s*\*\s*\w+;", body)
+
+
+def fixed(text):
+    """Structures that can never grow, one a line, and why: a caller's array or structure around
+    them has their old size."""
+    bodies = dict(re.findall(r"typedef struct (\w+) \{(.*?)\} \1;", text, flags=re.S))
+    grows = set(growing(text))
+    for name, _ in structs(text):
+        if name not in grows:
+            yield f"{name}: has no structSize\n"
+        for outer, body in bodies.items():
+            if re.search(rf"\b{name}\s+\w+\s*(?:\[|;)", body):
+                yield f"{name}: part of {outer}\n"
+
+
 def joined(text):
     """Values side by side where they fit into a line."""
     lines = []
@@ -104,7 +127,7 @@ def main():
     text = without_comments("".join((INCLUDE / "welkin" / h).read_text() for h in HEADERS))
     names = sorted(functions(text))
     outputs = {"symbols.txt": "".join(f"{name}@@{NODE}\n" for name in names),
-               "layout_test.c": BANNER + layout(text)}
+               "fixed.txt": "".join(fixed(text)), "layout_test.c": BANNER + layout(text)}
     failed = 0
     for name, content in outputs.items():
         path = HERE / name
