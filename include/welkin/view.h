@@ -141,7 +141,9 @@ typedef struct WlkQuality {
   uint32_t level;
   /** Slabs through each volume. 0 or [8, 2048]. Default 0. */
   uint32_t sliceCount;
-  /** Slabs per batch: 1 is the paper's algorithm. 0 or [1, sliceCount]. Default 0. */
+  /** Slabs per batch, whose light is computed in every frame: 1 is the paper's algorithm. 0: the
+   *  light of all slabs across the light is kept between frames and shared by the views, as far as
+   *  512 MiB hold it; else batches of the level. 0 or [1, sliceCount]. Default 0. */
   uint32_t batchSize;
   /** Texels along the light buffer's edge. 0 or [16, 2048]. Default 0. */
   uint32_t lightBufferSize;

@@ -11,6 +11,7 @@ struct VolumeUniforms {
                          //   path per slab (m), slab count, step (m)
   vec4 texelB;
   vec4 texelC;
+  vec4 middle;           // of the box, relative to the eye; step of the march through it all (m)
   vec4 extinctionScale;  // per field: extinction (1/m) at value 1
   vec4 meanAlbedo;       // per field
   vec4 albedo[4];        // per field RGB

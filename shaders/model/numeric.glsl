@@ -45,6 +45,19 @@ real oneMinusExp(real x) {
                              : real(1.0f) - exp(clamp(-x, real(-80.0f), real(80.0f)));
 }
 
+// Mean of e^t for t from x to y, (e^x - e^y) / (x - y), from p = e^x, q = e^y and d = x - y. Where
+// |d| < 1/2 the mean of p and q times tanh(d/2) / (d/2), whose series ends 4e-9 short. Beyond,
+// errors of p and q count at most 4 times. Relative error <= 1e-6 in float for exact p and q.
+real meanExp(real p, real q, real d) {
+  real z = real(0.25f) * d * d;
+  real series = real(1.0f) + z * (real(-0.33333333333333333) +
+                                  z * (real(0.13333333333333333) +
+                                       z * (real(-0.053968253968253968) +
+                                            z * (real(0.021869488536155203) +
+                                                 z * real(-0.0088632355299021966)))));
+  return abs(d) < real(0.5f) ? real(0.5f) * (p + q) * series : (p - q) / d;
+}
+
 // Scaled complementary error function e^(x^2) erfc(x), x >= 0: t p(2t - 1) with t = 1/(1 + 0.36 x)
 // and p of degree 9 by Lawson-weighted least squares on the relative error (method of Shepherd and
 // Laframboise 1981): no exponential, error <= 4e-8, in float <= 4e-7 after rounding.

@@ -50,13 +50,7 @@ const float HIDDEN = 18.0f;         // optical depth by the grid beyond which no
 const float LONGEST_RAY = 1.0e7f; // m inside one volume
 const uint MAX_SUBSTEPS = 256u;   // per slab, for rays that run along it
 
-// ln of the source distribution (1/sr, RGB) of a field: x along the scattering depth, whose first
-// node is single scattering, y along the angle.
-vec3 fieldSource(uint field, float depth, float angle) {
-  vec2 uv = (vec2(depth * 31.0f, angle * float(CURVE_NODES - 1)) + 0.5f) /
-            vec2(32.0f, float(CURVE_NODES));
-  return exp(textureLod(scatteringTable, vec3(uv, float(field)), 0.0f).xyz);
-}
+#include "volume_source.glsl"
 
 // Radiance scattered towards the eye per unit irradiance: sum of the fields' extinction * albedo *
 // light * phase. Of the four `single`, values of single scattering.
@@ -86,14 +80,6 @@ vec3 scatteredLight(vec4 extinction, vec3 single[4], vec2 light, float angle, fl
     sum += intensity * albedo * source * extinction[i];
   }
   return sum;
-}
-
-// What the light's grid holds at a position in the unit box: source (1/sr per unit irradiance) and
-// extinction without the peak (1/m).
-vec4 gridAt(vec3 box) {
-  vec3 cell = box * volume.gridScale.xyz + volume.gridOffset.xyz;
-  cell = clamp(cell, vec3(0.5f), volume.gridEnd.xyz) * volume.gridEnd.w;
-  return textureLod(viewSource, cell, 0.0f);
 }
 
 // Optical depth without the peak between two points of a ray in the unit box, by the grid's cells.

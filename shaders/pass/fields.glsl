@@ -33,10 +33,8 @@ float slotValue(sampler3D atlas, float page, vec3 local, vec3 scale) {
   return page > 0.0f ? value : 0.0f;
 }
 
-// Extinction (1/m) of each field at a position in the unit box; 0 outside.
-vec4 fieldExtinction(vec3 box) {
-  vec3 inside = step(vec3(0.0f), box) * step(box, vec3(1.0f));
-  float weight = inside.x * inside.y * inside.z;
+// Extinction (1/m) of each field at a position in the unit box.
+vec4 extinctionInside(vec3 box) {
   vec4 d = vec4(0.0f);
   BrickPlace at;
   if (BRICK_FIELDS != 0u) {
@@ -62,7 +60,13 @@ vec4 fieldExtinction(vec3 box) {
   } else if (FIELD_COUNT > 3u) {
     d.w = cleanDensity(textureLod(field3, box, 0.0f).x);
   }
-  return d * volume.extinctionScale * weight;
+  return d * volume.extinctionScale;
+}
+
+// The same anywhere; 0 outside.
+vec4 fieldExtinction(vec3 box) {
+  vec3 inside = step(vec3(0.0f), box) * step(box, vec3(1.0f));
+  return extinctionInside(box) * (inside.x * inside.y * inside.z);
 }
 
 // Permutes tiles so that neighbours in launch order lie far apart: lavapipe gives the first half of

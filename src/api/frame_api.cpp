@@ -5,8 +5,10 @@
 
 #include "api/context.hpp"
 #include "api/control.hpp"
+#include "api/light_stores.hpp"
 #include "api/plan_input.hpp"
 #include "api/sky_light.hpp"
+#include "frame/light_store.hpp"
 
 namespace {
 
@@ -244,6 +246,7 @@ void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
                                              VK_IMAGE_ASPECT_COLOR_BIT);
       }
     }
+    record.store = findLightStore(*volume, input.quality);
     c.recordVolumes.push_back(record);
   }
   input.volumes = view.planVolumes;
@@ -299,6 +302,7 @@ WlkResult wlkPrepare(WlkContext context) {
     features.lights = std::max(c.air.lightCount, 1U);
     features.shapedDisk = c.shapedDisk();
     prepareSkyLight(c);
+    prepareLightStores(c);
     c.recordVolumes.reserve(c.volumes.count());
     c.errorVolumes.reserve(c.volumes.count());
     for (uint32_t i = 0; i < c.views.slotCount(); ++i) {
@@ -315,6 +319,7 @@ WlkResult wlkPrepare(WlkContext context) {
       carrier.info = view->info;
       carrier.quality = view->quality;
       features.space = nearSpace(c, *view);
+      chooseStores(c, *view, features);
       prepareView(device, *c.pipelines, carrier, c.volumes.count(), c.maxFramesInFlight, features,
                   {fieldKinds.data(), kinds}, &c.memory);
       view->plan.volumes.reserve(c.volumes.count());

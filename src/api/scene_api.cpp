@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "api/context.hpp"
+#include "api/light_stores.hpp"
 
 namespace {
 
@@ -85,6 +86,7 @@ WlkResult wlkDestroyVolume(WlkContext context, WlkVolume volume) {
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
     VolumeState& state = c.volume(volume);
+    retireLightStores(c, state, {});
     Retired& entry = c.retired.emplace_back(&c.memory);
     entry.frame = c.frameIndex;
     for (uint32_t i = 0; i < state.fieldCount; ++i) {

@@ -54,6 +54,8 @@ SliceQuality rungQuality(const WlkQuality& quality, uint32_t rung) {
   SliceQuality result = resolveQuality(q);
   const Rung& largest = LADDER[rungRange(quality).highest];
   result.lightRoom = largest.light;
+  result.sliceRoom = largest.slices;
+  result.stored = !result.halfAngle && fitsLightStore(largest.slices, largest.light);
   result.cellRoom = quality.volumeCells == 0 ? largest.cells : result.transportCells;
   return result;
 }

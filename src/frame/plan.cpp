@@ -246,6 +246,9 @@ PlannedVolume planVolume(const PlanInput& in, const PlanLights& lights, const Pl
   }
   const glm::dvec3 view = glm::length(middle) > 0 ? glm::normalize(middle) : glm::dvec3(0, 0, -1);
   result.layout = layoutSlices(box, light.toLight, view, in.quality);
+  glm::dmat4x3 own = box;
+  own[3] = glm::dvec3(0);
+  result.ownLayout = layoutSlices(own, light.toLight, view, in.quality);
   return result;
 }
 
@@ -282,7 +285,17 @@ SliceQuality resolveQuality(const WlkQuality& quality) {
   result.noSkip = (quality.flags & WLK_QUALITY_NO_SKIP) != 0;
   result.lightRoom = result.lightSize;
   result.cellRoom = result.transportCells;
+  result.sliceRoom = result.sliceCount;
+  // Slabs that turn with the view have no light to share; an engine that asks for batches wants
+  // their memory.
+  result.stored = !result.halfAngle && quality.batchSize == 0 &&
+                  fitsLightStore(result.sliceCount, result.lightSize);
   return result;
+}
+
+bool fitsLightStore(uint32_t slices, uint32_t lightSize) {
+  constexpr uint64_t MOST_TEXELS = uint64_t{1} << 26;  // 512 MiB with two channels
+  return uint64_t{lightSize} * lightSize * (slices + 1) <= MOST_TEXELS;
 }
 
 PlanetFrame planetFrameAt(const WlkPlanet& planet, const glm::dvec3& point) {

@@ -30,12 +30,17 @@ struct SliceQuality {
   // Light-buffer texels and cells along an edge that the view's images have room for.
   uint32_t lightRoom;
   uint32_t cellRoom;
+  // The light of all slabs is kept for every view of the volume, which has room for so many.
+  bool stored;
+  uint32_t sliceRoom;
   bool volumeShadows;  // on air, fog and ground
   bool multipleSky;    // light scattered more than once in air and fog
   // Index of the scattering tables.
   uint32_t form() const { return transport ? 2 : (forwardScattering && wholeOrders ? 1 : 0); }
 };
 SliceQuality resolveQuality(const WlkQuality& quality);
+// Whether light may be kept for so many slabs and texels along an edge.
+bool fitsLightStore(uint32_t slices, uint32_t lightSize);
 
 // A frame on the planet's surface: doubles, because altitudes are small beside the radius.
 struct PlanetFrame {
@@ -117,6 +122,7 @@ struct PlannedVolume {
   double distance;
   PixelRect rect;
   SliceLayout layout;
+  SliceLayout ownLayout;  // relative to the box's corner: the same for every eye
 };
 
 struct Plan {

@@ -107,9 +107,6 @@ class Recorder {
         {VK_PIPELINE_STAGE_2_TRANSFER_BIT | COMPUTE | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
          VK_ACCESS_2_TRANSFER_WRITE_BIT | SHADER_ACCESS},
         {COMPUTE | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, SHADER_ACCESS});
-    if (plan.drawnCount > 0) {
-      c_.firstUse(view_.resources.lightBuffer);
-    }
     for (vk::Image* table :
          {&view_.resources.skyTable, &view_.resources.skyPeak, &view_.resources.viewSource}) {
       c_.firstUse(*table);

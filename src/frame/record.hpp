@@ -30,6 +30,7 @@ struct ViewTargets {
 // Volumes of the context in plan order of index, with the views of the engine's field images.
 struct RecordVolume {
   const VolumeState* state = nullptr;
+  LightStore* store = nullptr;  // where the view's light of it is kept
   std::array<VkImageView, WLK_MAX_FIELDS> externalViews{};
 };
 

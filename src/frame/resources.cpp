@@ -175,10 +175,15 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
   for (uint32_t lights = 0; lights <= features.lights; ++lights) {
     for (const bool depth : {false, true}) {
       for (const uint32_t fields : fieldKinds) {
-        EyeVariant v{air, fog, lights > 0, depth, false};
-        pipelines.prepare(eyeKey(v, fields, quality));
-        v.allLight = lights > 0 && sky && !fog && quality.multipleSky;
-        pipelines.prepare(eyeKey(v, fields, quality));
+        for (const bool stored : {false, true}) {
+          if (!(stored ? features.stores : features.batches)) {
+            continue;
+          }
+          EyeVariant v{air, fog, lights > 0, depth, false, stored};
+          pipelines.prepare(eyeKey(v, fields, quality));
+          v.allLight = lights > 0 && sky && !fog && quality.multipleSky;
+          pipelines.prepare(eyeKey(v, fields, quality));
+        }
       }
       CompositeVariant v{};
       v.air = air;
@@ -213,7 +218,11 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
     }
   }
   for (const uint32_t fields : fieldKinds) {
-    pipelines.prepare(lightKey(fields, quality.forwardScattering));
+    for (const bool stored : {false, true}) {
+      if (stored ? features.stores : features.batches) {
+        pipelines.prepare(lightKey({quality.forwardScattering, stored}, fields));
+      }
+    }
     if (quality.transport) {
       for (const vk::Pass pass : TRANSPORT_PASSES) {
         pipelines.prepare(transportKey(pass, fields));
@@ -263,13 +272,15 @@ VkFormat targetFormat(uint32_t welkinFormat) {
   }
 }
 
-vk::PipelineKey lightKey(uint32_t fields, bool forward) {
-  return ofFields({vk::Pass::LightSlices, VK_FORMAT_UNDEFINED, {0, 0, 1, 0, forward ? 1u : 0u}},
+vk::PipelineKey lightKey(const LightVariant& v, uint32_t fields) {
+  return ofFields({v.stored && !v.forward ? vk::Pass::LightDepth : vk::Pass::LightSlices,
+                   VK_FORMAT_UNDEFINED,
+                   {0, 0, 1, 0, v.forward}},
                   fields);
 }
 
 vk::PipelineKey eyeKey(const EyeVariant& v, uint32_t fields, const SliceQuality& quality) {
-  return ofFields({vk::Pass::EyeSlices,
+  return ofFields({v.stored ? vk::Pass::EyeMarch : vk::Pass::EyeSlices,
                    VK_FORMAT_UNDEFINED,
                    {v.air, v.fog, v.light, 0, quality.forwardScattering, v.depth, v.allLight,
                     quality.transport && v.light, quality.multipleSky}},
@@ -339,7 +350,7 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   const VkDeviceSize pixels = VkDeviceSize{info.width} * info.height;
   const VkDeviceSize stateBytes = volumeCount > 0 ? pixels * 16 : 16;
   r.frameState = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
-  if (volumeCount > 1 && batches > 1) {
+  if (volumeCount > 1 && batches > 1 && features.batches) {
     r.volumeState = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
   }
   if (volumeCount > 0) {
@@ -348,12 +359,14 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
            "%u x %u pixels with volumes exceed the device's storage buffers", info.width,
            info.height);
     }
-    vk::ImageInfo light;
-    light.type = VK_IMAGE_TYPE_3D;
-    light.format = VK_FORMAT_R32G32_SFLOAT;
-    light.extent = {quality.lightSize, quality.lightSize, quality.batchSize + 1};
-    light.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    r.lightBuffer = vk::Image(device, light);
+    if (features.batches) {
+      vk::ImageInfo light;
+      light.type = VK_IMAGE_TYPE_3D;
+      light.format = VK_FORMAT_R32G32_SFLOAT;
+      light.extent = {quality.lightSize, quality.lightSize, quality.batchSize + 1};
+      light.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+      r.lightBuffer = vk::Image(device, light);
+    }
     if (quality.transport) {
       makeTransport(device, quality, volumeCount, r);
     }

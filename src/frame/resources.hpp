@@ -17,6 +17,9 @@ struct SceneFeatures {
   uint32_t lights = 1;
   bool shapedDisk = false;
   bool space = false;  // a view's eye is, or may soon be, far above the air
+  // Of the view's volumes, some or all.
+  bool stores = false;   // keep light for all views
+  bool batches = false;  // do not
 };
 
 VkFormat targetFormat(uint32_t welkinFormat);
@@ -35,10 +38,15 @@ void prepareVolume(vk::Device& device, VolumeState& volume, uint32_t form);
 constexpr VkDeviceSize FOG_CURVE_BYTES = sizeof(FogPhaseState::curve);
 
 // The key of a pass in the state a plan asks for.
-vk::PipelineKey lightKey(uint32_t fields, bool forward);
+struct LightVariant {
+  bool forward;
+  bool stored;  // all slabs at once
+};
+vk::PipelineKey lightKey(const LightVariant& variant, uint32_t fields);
 struct EyeVariant {
   uint32_t air;  // Plan::airKind
   bool fog, light, depth, allLight;
+  bool stored;  // marches through a store
 };
 vk::PipelineKey eyeKey(const EyeVariant& variant, uint32_t fields, const SliceQuality& quality);
 inline constexpr std::array TRANSPORT_PASSES{

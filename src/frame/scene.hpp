@@ -77,6 +77,31 @@ struct TransportMedia;
 
 constexpr uint32_t PAGES = WLK_MAX_FIELDS;  // PendingUpload::field of them
 
+// Texels along a store's edges, and what it holds: 0 optical depth, else also what forward
+// scattering gives back, of the scattering tables form - 1.
+struct LightStoreShape {
+  uint32_t size = 0;
+  uint32_t layers = 0;
+  uint32_t form = 0;
+  bool operator==(const LightStoreShape&) const = default;
+};
+
+// What a store's light was computed from, compared byte by byte.
+struct LightStoreKey {
+  std::array<float, 4 * (6 + DEPTH_NODES)> rows{};
+  uint32_t slices = 0;
+  uint32_t size = 0;
+  uint64_t version = 0;
+  uint64_t filled = 0;  // 0: nothing was computed yet
+};
+
+// A volume's light at all slabs, for views of one shape.
+struct LightStore {
+  LightStoreShape shape;
+  vk::Image image;
+  LightStoreKey key;
+};
+
 struct VolumeState {
   explicit VolumeState(std::pmr::memory_resource* memory)
       : faces{BrickFaces(memory), BrickFaces(memory), BrickFaces(memory), BrickFaces(memory)},
@@ -89,6 +114,7 @@ struct VolumeState {
   std::shared_ptr<const TransportMedia> transport;       // likewise
   vk::Buffer pairTable;                                  // of `transport`, as its passes read it
   uint64_t version = 1;                                  // of the fields' contents
+  std::vector<LightStore> lightStores;                   // one per shape that views ask for
   std::array<BrickFaces, WLK_MAX_FIELDS> faces;          // of Welkin's own images; empty: of none
   // Where fields are kept as bricks: the slot of each, a channel per field (pageChannels).
   vk::Image pages;

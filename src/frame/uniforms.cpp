@@ -16,6 +16,9 @@ glm::vec3 vec(const float (&v)[3]) {
   return {v[0], v[1], v[2]};
 }
 
+// Of the march through all slabs, in slabs.
+constexpr double MARCH_STEP = 0.75;
+
 // Of the moments' top: where pixels begin to gather their own light.
 constexpr double SPACE = 1.5;
 
@@ -193,16 +196,19 @@ void fillVolume(const VolumeState& volume, const PlannedVolume& planned, const g
   out.lightU = glm::vec4(layout.lightU * used);
   out.lightV = glm::vec4(layout.lightV * used);
   out.plane = glm::vec4(layout.plane);
-  const glm::dvec3 origin = inverse * (layout.texelOrigin - box[3]);
+  // Relative to the box: the same for every eye, bit for bit.
+  const SliceLayout& own = planned.ownLayout;
+  const glm::dvec3 origin = inverse * own.texelOrigin;
   // Longest stretch of a ray between two samples: at 1.5 slabs, stretches of optical depth 2 drew
   // contour lines on a cumulus lit from the side; at 0.75 none are left.
   const double maxStep = layout.slabThickness * 0.75;
   const double peak = volume.transport ? volume.transport->peak : 0.0;
   out.texelOrigin = glm::vec4(glm::vec3(origin), static_cast<float>(1 - peak));
-  out.texelA = glm::vec4(glm::vec3(inverse * layout.texelU), static_cast<float>(layout.lightPath));
-  out.texelB =
-      glm::vec4(glm::vec3(inverse * layout.texelV), static_cast<float>(quality.sliceCount));
-  out.texelC = glm::vec4(glm::vec3(inverse * layout.texelC), static_cast<float>(maxStep));
+  out.texelA = glm::vec4(glm::vec3(inverse * own.texelU), static_cast<float>(own.lightPath));
+  out.texelB = glm::vec4(glm::vec3(inverse * own.texelV), static_cast<float>(quality.sliceCount));
+  out.texelC = glm::vec4(glm::vec3(inverse * own.texelC), static_cast<float>(maxStep));
+  out.middle = glm::vec4(glm::vec3(box * glm::dvec4(0.5, 0.5, 0.5, 1.0)),
+                         static_cast<float>(layout.slabThickness * MARCH_STEP));
   if (quality.transport) {
     const TransportShape shape = transportShape(volume, quality.transportCells);
     for (int i = 0; i < 3; ++i) {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "frame/volume_record.hpp"
 
+#include <algorithm>
 #include <cstring>
 
+#include "failure.hpp"
+#include "frame/light_store.hpp"
 #include "frame/resources.hpp"
 #include "frame/sky_bindings.hpp"
 #include "frame/transport_record.hpp"
@@ -17,9 +20,21 @@ using interface_::VolumeUniforms;
 vk::PipelineKey eyeKeyOf(const FrameCommands& c, const ViewTargets& targets,
                          const PlannedVolume& planned) {
   const Plan& plan = c.view.plan;
-  return eyeKey(
-      {plan.airKind(), plan.fog, planned.lit, static_cast<bool>(targets.depth), plan.allLight},
-      c.in.volumes[planned.index].state->fieldKind(), c.quality);
+  const RecordVolume& volume = c.in.volumes[planned.index];
+  return eyeKey({plan.airKind(), plan.fog, planned.lit, static_cast<bool>(targets.depth),
+                 plan.allLight, volume.store != nullptr},
+                volume.state->fieldKind(), c.quality);
+}
+
+vk::PipelineKey lightKeyOf(const FrameCommands& c, const RecordVolume& volume) {
+  return lightKey({c.quality.forwardScattering, volume.store != nullptr},
+                  volume.state->fieldKind());
+}
+
+// The engine may have written the image of a field since.
+bool external(const VolumeState& volume) {
+  return std::any_of(volume.fields.begin(), volume.fields.begin() + volume.fieldCount,
+                     [](const FieldState& field) { return field.external.has_value(); });
 }
 
 class VolumeRecorder {
@@ -40,7 +55,11 @@ class VolumeRecorder {
       recordTransportLight();
     }
     if (planned_.drawn) {
-      recordBatches(light, eye);
+      covered_ = planned_;
+      if (rank_ == 0) {
+        covered_.rect = c_.view.plan.volumeRect;  // the first volume also clears the union
+      }
+      volume_.store != nullptr ? recordStored(light, eye) : recordBatches(light, eye);
     }
     passes().push_back(light);
     passes().push_back(eye);
@@ -72,15 +91,10 @@ class VolumeRecorder {
     const auto lightIndex = static_cast<uint32_t>(passes().size());
     const SliceQuality& quality = c_.quality;
     const VkPipelineLayout layout = c_.pipelines.volumeLayout();
-    const bool first = rank_ == 0;
-    PlannedVolume covered = planned_;
-    if (first) {
-      covered.rect = c_.view.plan.volumeRect;  // its first batch also clears the union
-    }
-    bind(covered);
+    c_.firstUse(c_.view.resources.lightBuffer);
+    bind(c_.view.resources.lightBuffer);
     const VkPipeline eyePipeline = c_.find(eyeKeyOf(c_, targets_, planned_));
-    const VkPipeline lightPipeline =
-        c_.find(lightKey(volume_.state->fieldKind(), quality.forwardScattering));
+    const VkPipeline lightPipeline = c_.find(lightKeyOf(c_, volume_));
     for (uint32_t slab = 0; slab < quality.sliceCount; slab += quality.batchSize) {
       SliceConstants push{};
       push.firstSlab = slab;
@@ -89,16 +103,50 @@ class VolumeRecorder {
       push.flags =
           (slab == 0 ? interface_::SLICE_FIRST_BATCH : 0) |
           (slab + quality.batchSize >= quality.sliceCount ? interface_::SLICE_LAST_BATCH : 0) |
-          (first ? interface_::SLICE_FIRST_VOLUME : 0);
+          (rank_ == 0 ? interface_::SLICE_FIRST_VOLUME : 0);
       if (planned_.lit) {
         c_.orderShaders();
         c_.dispatch(lightPipeline, layout, &push, groups(quality.lightSize),
                     groups(quality.lightSize), light, lightIndex);
       }
-      c_.orderShaders();
-      c_.dispatch(eyePipeline, layout, &push, groups(covered.rect.x1 - covered.rect.x0),
-                  groups(covered.rect.y1 - covered.rect.y0), eye, lightIndex + 1);
+      dispatchEye(eyePipeline, push, eye, lightIndex + 1);
     }
+  }
+
+  // All slabs' light, unless it is there already, and one march through it.
+  void recordStored(WlkPassStats& light, WlkPassStats& eye) {
+    const auto lightIndex = static_cast<uint32_t>(passes().size());
+    LightStore& store = *volume_.store;
+    c_.firstUse(store.image);
+    const VolumeUniforms uniforms = bind(store.image);
+    SliceConstants push{};
+    push.slabCount = c_.quality.sliceCount;
+    push.lightSize = c_.quality.lightSize;
+    push.flags = interface_::SLICE_FIRST_BATCH | interface_::SLICE_LAST_BATCH |
+                 (rank_ == 0 ? interface_::SLICE_FIRST_VOLUME : 0);
+    if (planned_.lit) {
+      const bool changing = external(*volume_.state);
+      if (keptInStore(store, *volume_.state, c_.quality, uniforms) && !changing) {
+        light.reason = c_.quality.noSkip ? WLK_REASON_NO_SKIP_FLAG : WLK_REASON_UNCHANGED;
+      }
+      if (changing) {
+        store.key = {};  // what was uploaded may be back in the next frame
+      }
+      if (light.reason != WLK_REASON_UNCHANGED) {
+        c_.orderShaders();
+        c_.dispatch(c_.find(lightKeyOf(c_, volume_)), c_.pipelines.volumeLayout(), &push,
+                    groups(push.lightSize), groups(push.lightSize), light, lightIndex);
+      }
+    }
+    dispatchEye(c_.find(eyeKeyOf(c_, targets_, planned_)), push, eye, lightIndex + 1);
+  }
+
+  void dispatchEye(VkPipeline pipeline, const SliceConstants& push, WlkPassStats& eye,
+                   uint32_t index) {
+    c_.orderShaders();
+    c_.dispatch(pipeline, c_.pipelines.volumeLayout(), &push,
+                groups(covered_.rect.x1 - covered_.rect.x0),
+                groups(covered_.rect.y1 - covered_.rect.y0), eye, index);
   }
 
   VkDeviceSize volumeOffset() const {
@@ -106,14 +154,15 @@ class VolumeRecorder {
     return (c_.in.slot + 1) * r.slotStride - (r.volumeCapacity - rank_) * r.volumeStride;
   }
 
-  void bind(const PlannedVolume& covered) {
+  // Returns the volume's constants.
+  VolumeUniforms bind(const vk::Image& light) {
     const ViewResources& r = c_.view.resources;
     BoundSet& set = c_.slot.volumes[rank_];
     const VkDeviceSize base = c_.in.slot * r.slotStride;
     const VkDeviceSize offset = volumeOffset();
     VolumeUniforms uniforms;
     const double* position = c_.view.camera.position;
-    fillVolume(*volume_.state, covered, {position[0], position[1], position[2]}, c_.quality,
+    fillVolume(*volume_.state, covered_, {position[0], position[1], position[2]}, c_.quality,
                uniforms);
     std::memcpy(static_cast<char*>(r.uniforms.data()) + offset, &uniforms, sizeof uniforms);
 
@@ -122,9 +171,8 @@ class VolumeRecorder {
              sizeof(FrameUniforms));
     b.buffer(set, vk::BIND_VOLUME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(), offset,
              sizeof(VolumeUniforms));
-    b.image(set, vk::BIND_LIGHT_STORAGE, r.lightBuffer.view(), VK_NULL_HANDLE,
-            VK_IMAGE_LAYOUT_GENERAL);
-    b.image(set, vk::BIND_LIGHT_SAMPLED, r.lightBuffer.view(), c_.pipelines.linear(),
+    b.image(set, vk::BIND_LIGHT_STORAGE, light.view(), VK_NULL_HANDLE, VK_IMAGE_LAYOUT_GENERAL);
+    b.image(set, vk::BIND_LIGHT_SAMPLED, light.view(), c_.pipelines.linear(),
             VK_IMAGE_LAYOUT_GENERAL);
     bindFields(set);
     b.image(set, vk::BIND_TABLE, volume_.state->tables[c_.quality.form()].image.view(),
@@ -144,6 +192,7 @@ class VolumeRecorder {
              volumeState.size());
     c_.vk.CmdBindDescriptorSets(c_.commands, VK_PIPELINE_BIND_POINT_COMPUTE,
                                 c_.pipelines.volumeLayout(), 0, 1, &set.set, 0, nullptr);
+    return uniforms;
   }
 
   void bindFields(BoundSet& set) {
@@ -170,6 +219,7 @@ class VolumeRecorder {
   const PlannedVolume& planned_;
   const RecordVolume& volume_;
   uint32_t rank_;
+  PlannedVolume covered_{};  // with the pixels that the eye's pass runs over
 };
 
 }  // namespace
@@ -180,8 +230,12 @@ void findVolumePipelines(const FrameCommands& commands, const ViewTargets& targe
     return;
   }
   commands.find(eyeKeyOf(commands, targets, planned));
-  const uint32_t fields = commands.in.volumes[planned.index].state->fieldKind();
-  commands.find(lightKey(fields, commands.quality.forwardScattering));
+  const RecordVolume& volume = commands.in.volumes[planned.index];
+  const uint32_t fields = volume.state->fieldKind();
+  commands.find(lightKeyOf(commands, volume));
+  if (volume.store == nullptr && !commands.view.resources.lightBuffer) {
+    fail(WLK_ERROR_NOT_PREPARED, 0, "view", "call wlkPrepare before recording");
+  }
   for (const vk::Pass pass : TRANSPORT_PASSES) {
     if (commands.quality.transport && planned.lit) {
       commands.find(transportKey(pass, fields));

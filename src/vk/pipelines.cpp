@@ -6,7 +6,9 @@
 #include "composite_blend_frag_spv.h"
 #include "composite_comp_spv.h"
 #include "composite_vert_spv.h"
+#include "eye_march_comp_spv.h"
 #include "eye_slices_comp_spv.h"
+#include "light_depth_comp_spv.h"
 #include "light_slices_comp_spv.h"
 #include "shadow_map_comp_spv.h"
 #include "shadow_resolve_comp_spv.h"
@@ -208,8 +210,12 @@ Pipelines::Compute Pipelines::computeOf(Pass pass) const {
   switch (pass) {
     case Pass::LightSlices:
       return {light_slices_comp_spv, volumeLayout_};
+    case Pass::LightDepth:
+      return {light_depth_comp_spv, volumeLayout_};
     case Pass::EyeSlices:
       return {eye_slices_comp_spv, volumeLayout_};
+    case Pass::EyeMarch:
+      return {eye_march_comp_spv, volumeLayout_};
     case Pass::SkyTable:
       return {sky_table_comp_spv, skyLayout_};
     case Pass::TransportDepth:

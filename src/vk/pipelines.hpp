@@ -14,7 +14,9 @@ namespace welkin::vk {
 
 enum class Pass : uint32_t {
   LightSlices,
+  LightDepth,
   EyeSlices,
+  EyeMarch,
   SkyTable,
   Composite,
   CompositeBlend,

@@ -133,7 +133,6 @@ TEST(GovernedView, ARungIsThePictureOfItsNumbers) {
       plain.level = level;
       plain.scattering = scattering;
       plain.sliceCount = what.first.sliceCount;
-      plain.batchSize = what.first.batchSize;
       plain.lightBufferSize = what.first.lightBufferSize;
       plain.volumeCells = what.first.volumeCells;
       GovernedScene asked(plain);

@@ -184,9 +184,12 @@ TEST_F(Skip, AVolumeAtTheEdgeOfTheViewIsMarchedInItsRectangleOnly) {
   scene.setSun(30, 20);
   scene.addBall(0.01f);
   const uint64_t pixels = uint64_t{24} * 16;
+  bool first = true;  // the others find the light there
   for (const double yaw_deg : {-48.0, 0.0, 41.0}) {
     scene.setCamera({0, 2, 0}, yaw_deg, 12);
-    EXPECT_EQ(render().view.dispatches, SKY_TABLE + ALL_OF_ONE_VOLUME) << yaw_deg;
+    const uint64_t needed = first ? ALL_OF_ONE_VOLUME : EYE_AND_COMPOSITE;
+    EXPECT_EQ(render().view.dispatches, SKY_TABLE + needed) << yaw_deg;
+    first = false;
     EXPECT_LT(scene.passes()[2].invocations, pixels) << yaw_deg;
     expectSameWithoutSkipping();
   }

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// Eye buffer of a volume whose light is stored for all slabs: each pixel marches once, front to
+// back. Stretches end at multiples of the step from the box's middle, along each ray: they stay
+// where they are in the volume while the eye moves along its view, and depend on no slab.
+// [R04] 4.2 with Eq. 26 as corrected. Density at the middle of a stretch, light at its ends: the
+// logarithm of what arrives is linear between, so that homogeneous media come out exactly, however
+// thick a stretch.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "common.glsl"
+#include "../interface/slices.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 3) const uint FIELD_COUNT = 1;
+layout(constant_id = 4) const bool FORWARD_SCATTERING = true;
+layout(constant_id = 5) const bool DEPTH_ENABLED = true;
+// Clear air: all of its light comes from the table.
+layout(constant_id = 6) const bool ALL_LIGHT = false;
+// Light scattered before comes from a grid; what forward peaks turn counts as passing.
+layout(constant_id = 7) const bool TRANSPORT = false;
+layout(constant_id = 8) const bool MULTIPLE_ENABLED = true;
+
+layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
+layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volume; };
+layout(set = 0, binding = 3) uniform sampler3D lightBuffer;
+layout(set = 0, binding = 4) uniform sampler3D field0;
+layout(set = 0, binding = 5) uniform sampler3D field1;
+layout(set = 0, binding = 6) uniform sampler3D field2;
+layout(set = 0, binding = 7) uniform sampler3D field3;
+layout(set = 0, binding = 8) uniform sampler2DArray scatteringTable;
+layout(set = 0, binding = 9) uniform sampler2D depthImage;
+layout(set = 0, binding = 10, std430) buffer FrameState { vec4 frameState[]; };
+layout(set = 0, binding = 12, std430) readonly buffer FogCurve { vec4 fogCurve[]; };
+layout(set = 0, binding = 13) uniform sampler3D skyTable;
+layout(set = 0, binding = 14) uniform sampler3D skyPeak;
+layout(set = 0, binding = 15) uniform sampler3D viewSource;
+layout(set = 0, binding = 16) uniform sampler3D pages;
+layout(push_constant) uniform Push { SliceConstants slice; };
+
+#include "../interface/sky_table.glsl"
+#include "ray.glsl"
+#include "fog_curve.glsl"
+#include "fields.glsl"
+#include "air_column.glsl"
+#include "sky_lookup.glsl"
+#include "air_nodes.glsl"
+#include "volume_source.glsl"
+
+const float RAY_ENDS = 14.0f;      // optical depth at which a ray ends: 1e-6 of its light is left
+const float LONGEST_RAY = 1.0e7f;  // m inside one volume
+const float MAX_STEPS = 60000.0f;  // the driver ends loops silently at 65535
+const bool AIR_SEEN = AIR_ENABLED || FOG_ENABLED;
+
+// The ray, affine in the distance s (m) from the point nearest the box's middle.
+struct March {
+  vec3 box;  // position in the unit box, and per m
+  vec3 boxStep;
+  vec3 light;  // in the light buffer
+  vec3 lightStep;
+  float angle;  // table coordinate of the scattering angle
+  vec3 single[4];
+};
+
+// ln of the light that a stretch's end scatters towards the eye, per field: source (1/sr per unit
+// irradiance) times what the light has lost to there and loses on the way to the eye.
+struct End {
+  vec3 field[4];
+};
+
+// Keeps clear of subnormal numbers, which are slow.
+vec3 cutExp(vec3 x) {
+  return exp(max(x, vec3(-EXP_CUT)));
+}
+
+End endAt(March m, float s, float eyeDepth) {
+  End end;
+  vec2 light = textureLod(lightBuffer, m.light + s * m.lightStep, 0.0f).xy;
+  float keep = TRANSPORT ? volume.texelOrigin.w : 1.0f;
+  for (int i = 0; i < int(FIELD_COUNT); ++i) {
+    vec3 ln;
+    if (TRANSPORT) {
+      float turned = (light.x + eyeDepth) * volume.meanAlbedo[i];
+      ln = logFieldSource(uint(i), depthCoordinate(turned), m.angle) - light.x * keep;
+    } else if (FORWARD_SCATTERING) {
+      // phi was accumulated with the mean albedo; each colour scales it by its own.
+      vec3 back = light.y * volume.albedo[i].xyz / max(volume.meanAlbedo[i], 1.0e-6f);
+      float turned = light.x * volume.meanAlbedo[i];
+      ln = logFieldSource(uint(i), depthCoordinate(turned), m.angle) + min(back - light.x, 0.0f);
+    } else {
+      ln = m.single[i] - light.x;
+    }
+    end.field[i] = ln - eyeDepth * keep;
+  }
+  return end;
+}
+
+void main() {
+  uvec2 offset = tileOf(gl_WorkGroupID.xy, gl_NumWorkGroups.xy) * 8u + gl_LocalInvocationID.xy;
+  uvec2 pixel = uvec2(volume.rect.xy) + offset;
+  if (pixel.x >= uint(volume.rect.z) || pixel.y >= uint(volume.rect.w)) {
+    return;
+  }
+  uint index = pixel.y * uint(frame.viewport.x) + pixel.x;
+  vec3 direction = pixelDirection(frame, vec2(pixel));
+  float surface = LONGEST_RAY * 100.0f;
+  if (DEPTH_ENABLED) {
+    float d = texelFetch(depthImage, ivec2(pixel), 0).x;
+    surface = surfaceDistance(frame, vec2(pixel), d);
+  }
+
+  March m;
+  m.boxStep = (volume.boxFromEye * vec4(direction, 0.0f)).xyz;
+  Span span = rayBox(volume.boxFromEye[3].xyz, m.boxStep, vec3(0.0f), vec3(1.0f));
+  span.end = min(min(span.end, surface), span.begin + LONGEST_RAY);
+  vec4 state = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  if (span.end > span.begin) {
+    float nearest = dot(volume.middle.xyz, direction);
+    m.box = volume.boxFromEye[3].xyz + nearest * m.boxStep;
+    // The buffer may have room for more slabs.
+    float layers = float(textureSize(lightBuffer, 0).z);
+    m.lightStep = vec3(dot(direction, volume.lightU.xyz), dot(direction, volume.lightV.xyz),
+                       dot(direction, volume.plane.xyz) / layers);
+    m.light = vec3(volume.lightU.w, volume.lightV.w, (volume.plane.w + 0.5f) / layers) +
+              nearest * m.lightStep;
+    m.angle = phaseCoordinate(oneMinusCosine(direction, frame.lights[0].direction.xyz));
+    for (int i = 0; i < 4; ++i) {
+      m.single[i] = vec3(0.0f);
+    }
+    if (LIGHT_ENABLED && !FORWARD_SCATTERING && !TRANSPORT) {
+      for (int i = 0; i < int(FIELD_COUNT); ++i) {
+        m.single[i] = logFieldSource(uint(i), 0.0f, m.angle);
+      }
+    }
+    AirNodes nodes = airNodes(direction, span.begin, span.end);
+    float keep = TRANSPORT ? volume.texelOrigin.w : 1.0f;
+    float s = span.begin - nearest;
+    float last = span.end - nearest;
+    float dt = max(volume.middle.w, (last - s) / MAX_STEPS);
+    float first = floor(s / dt) + 1.0f;  // the stretch's far end, in steps
+    float eyeDepth = 0.0f;
+    float through = 1.0f;
+    vec3 sum = vec3(0.0f);
+    End end;
+    vec3 ends[4];
+    if (LIGHT_ENABLED) {
+      end = endAt(m, s, 0.0f);
+      for (int i = 0; i < int(FIELD_COUNT); ++i) {
+        ends[i] = cutExp(end.field[i]);
+      }
+    }
+    do {
+      float next = min(first * dt, last);
+      float stretch = max(next - s, 0.0f);
+      float middle = s + 0.5f * stretch;
+      vec4 extinction = extinctionInside(m.box + middle * m.boxStep);
+      float beta = extinction.x + extinction.y + extinction.z + extinction.w;
+      eyeDepth += beta * stretch;
+      float passed = exp(-min(eyeDepth * keep, EXP_CUT));
+      AirAt air = airAt(nodes, nearest + middle);
+      if (LIGHT_ENABLED) {
+        End far = endAt(m, next, eyeDepth);
+        vec3 source = vec3(0.0f);
+        for (int i = 0; i < int(FIELD_COUNT); ++i) {
+          vec3 farEnd = cutExp(far.field[i]);
+          vec3 d = end.field[i] - far.field[i];
+          vec3 light = vec3(meanExp(ends[i].x, farEnd.x, d.x), meanExp(ends[i].y, farEnd.y, d.y),
+                            meanExp(ends[i].z, farEnd.z, d.z));
+          source += volume.albedo[i].xyz * light * (extinction[i] * stretch);
+          ends[i] = farEnd;
+        }
+        if (TRANSPORT) {
+          source += gridAt(m.box + middle * m.boxStep).xyz * (through - passed);
+        }
+        end = far;
+        sum += source * air.light * air.transmittance;
+      }
+      if (AIR_SEEN) {
+        sum += air.radiance * (through - passed);
+      }
+      through = passed;
+      s = next;
+      first += 1.0f;
+    } while (s < last && eyeDepth * keep < RAY_ENDS);
+    state = vec4(sum, through);
+  }
+
+  if ((slice.flags & SLICE_FIRST_VOLUME) == 0u) {
+    vec4 front = frameState[index];
+    state = vec4(front.xyz + front.w * state.xyz, front.w * state.w);
+  }
+  frameState[index] = state;
+}
