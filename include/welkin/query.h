@@ -62,9 +62,6 @@ WLK_API WlkResult wlkEvalTransmittance(WlkContext context, const double from[3],
 WLK_API WlkResult wlkEvalLight(WlkContext context, uint32_t lightIndex, const double position[3],
                                double irradiance[3]);
 
-/** Values of wlkEvalAmbient: 9 coefficients of 3 colours. */
-#define WLK_AMBIENT_VALUES 27
-
 /** Light from everywhere but the light itself at a world point, of all orders of scattering in
  *  air and fog and by the ground, as real spherical harmonics of its radiance: 9 coefficients,
  *  each RGB, in the order 1; y, z, x; xy, yz, 3 z^2 - 1, xz, x^2 - y^2 with the usual constants,

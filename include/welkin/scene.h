@@ -110,6 +110,47 @@ WLK_API WlkResult wlkInitMoon(const float toSun[3], const float toMoon[3],
 WLK_API WlkResult wlkSetLights(WlkContext context, uint32_t count, uint32_t stride,
                                const WlkLight* lights);
 
+/** Values of wlkEvalAmbient: 9 coefficients of 3 colours. */
+#define WLK_AMBIENT_VALUES 27
+
+/** Where the light comes from that falls on volumes from everywhere but the lights themselves. */
+enum {
+  /** There is none: what no light reaches is black. */
+  WLK_AMBIENT_OFF = 0,
+  /** From the context's own sky and ground, as wlkEvalSkyMap has them at the middle of each volume:
+   *  air, fog, all lights, all orders of scattering. For views that show the sky or the fog. */
+  WLK_AMBIENT_AUTOMATIC = 1,
+  /** From the engine: the fields of WlkAmbient. */
+  WLK_AMBIENT_GIVEN = 2
+};
+
+/** Light of sky and ground on volumes. It is followed through each volume from all directions, so
+ *  that what is hidden from the sky is dark, on a grid of cells half as fine as
+ *  WlkQuality::volumeCells says: with WLK_SCATTERING_ALL_ORDERS and FORWARD through all orders of
+ *  scattering, with WLK_SCATTERING_SINGLE not at all. Volumes do not take it from each other or
+ *  from the ground. */
+typedef struct WlkAmbient {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** WLK_AMBIENT_*. Default OFF, also for a context whose ambient light was never set. */
+  uint32_t mode;
+  uint32_t reserved0;
+  /** Of GIVEN: radiance from all directions above the horizontal plane through the volume's middle,
+   *  and below it. RGB, [0, 1e6], in the unit of the lights' irradiance per sr. Default 0. */
+  float sky[3];
+  float ground[3];
+  /** Of GIVEN: radiance that is added to them, as harmonics in the order and the axes of
+   *  wlkEvalAmbient; where their sum is negative, 0. [-1e6, 1e6]. Default 0. */
+  float harmonics[WLK_AMBIENT_VALUES];
+  uint32_t reserved1;
+} WlkAmbient;
+
+/** Sets the ambient light of volumes; null means OFF. From or to OFF needs wlkPrepare. AUTOMATIC
+ *  costs 2 ms of CPU time for each volume in a frame before which planet, air, lights or the
+ *  volume's place have changed. [C] Errors: INVALID_ARGUMENT (mode, sky, ground, harmonics). */
+WLK_API WlkResult wlkSetAmbient(WlkContext context, const WlkAmbient* ambient);
+
 enum {
   /** The type's choice: TABLE where there is one. */
   WLK_PHASE_DEFAULT = 0,

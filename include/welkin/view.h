@@ -316,7 +316,9 @@ enum {
   /** Light inside a volume that was scattered before (WLK_SCATTERING_ALL_ORDERS). */
   WLK_PASS_VOLUME_LIGHT = 5,
   /** A map of the volumes' shadow: the engine's (welkin_vulkan.h), or the view's own. */
-  WLK_PASS_SHADOW_MAP = 6
+  WLK_PASS_SHADOW_MAP = 6,
+  /** Light of sky and ground inside a volume (wlkSetAmbient). */
+  WLK_PASS_VOLUME_AMBIENT = 7
 };
 
 /** Why a pass was recorded or not. */

@@ -37,6 +37,9 @@ inline constexpr WlkStructType structType(const WlkFog&) {
 inline constexpr WlkStructType structType(const WlkAbsorber&) {
   return WLK_STRUCT_ABSORBER;
 }
+inline constexpr WlkStructType structType(const WlkAmbient&) {
+  return WLK_STRUCT_AMBIENT;
+}
 inline constexpr WlkStructType structType(const WlkAtmospherePreset&) {
   return WLK_STRUCT_ATMOSPHERE_PRESET;
 }

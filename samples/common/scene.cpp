@@ -63,8 +63,8 @@ Json readSceneJson(const std::string& file, const std::vector<std::string>& assi
 
 Scene parseScene(const Json& json, const std::string& file) {
   const JsonNode root(json, file);
-  root.onlyKeys({"description", "atmosphere", "planet", "sky", "absorber", "lights", "fog", "media",
-                 "volumes", "quality", "view", "camera", "opaque", "png"});
+  root.onlyKeys({"description", "atmosphere", "planet", "sky", "absorber", "ambient", "lights",
+                 "fog", "media", "volumes", "quality", "view", "camera", "opaque", "png"});
   Scene scene;
   scene.file = file;
   parseVolumes(root, scene);

@@ -63,6 +63,28 @@ WlkAbsorber parseAbsorber(const JsonNode& node, const WlkAbsorber& initial) {
   return absorber;
 }
 
+WlkAmbient parseAmbient(const JsonNode& node) {
+  auto ambient = make<WlkAmbient>();
+  if (node.isText()) {
+    ambient.mode = static_cast<uint32_t>(node.word({"off", "automatic"}));
+    return ambient;
+  }
+  node.onlyKeys({"sky", "ground", "harmonics"});
+  ambient.mode = WLK_AMBIENT_GIVEN;
+  node.optional("sky", ambient.sky);
+  node.optional("ground", ambient.ground);
+  if (node.has("harmonics")) {
+    const std::vector<JsonNode> values = node.at("harmonics").elements();
+    if (values.size() != WLK_AMBIENT_VALUES) {
+      node.at("harmonics").fail("expected 27 numbers: 9 coefficients of 3 colours");
+    }
+    for (size_t i = 0; i < values.size(); ++i) {
+      ambient.harmonics[i] = static_cast<float>(values[i].number());
+    }
+  }
+  return ambient;
+}
+
 Vec3 parseLightDirection(const JsonNode& node) {
   if (node.has("direction")) {
     if (node.has("elevation_deg") || node.has("azimuth_deg")) {
@@ -170,6 +192,9 @@ void parseWorld(const JsonNode& root, Scene& scene) {
     scene.absorber = parseAbsorber(root.at("absorber"), initial.absorber);
   } else if (root.isNull("absorber")) {
     scene.absorber.reset();
+  }
+  if (root.has("ambient")) {
+    scene.ambient = parseAmbient(root.at("ambient"));
   }
   if (root.has("lights")) {
     for (const JsonNode& node : root.at("lights").elements()) {

@@ -21,6 +21,9 @@ struct VolumeUniforms {
   vec4 gridEnd;          // last cell's middle; 1 / edge of its image
   vec4 voxels;           // along the axes
   vec4 atlas[4];         // per field: 1 / texels of the atlas of its bricks
+  vec4 ambientScale;     // the same of the grid for the light of sky and ground
+  vec4 ambientOffset;
+  vec4 ambientEnd;
   vec4 forwardFraction[32];  // F(n) per depth node; component = field
 };
 

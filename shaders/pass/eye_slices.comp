@@ -18,6 +18,8 @@ layout(constant_id = 6) const bool ALL_LIGHT = false;
 // Light scattered before comes from a grid; what forward peaks turn counts as passing.
 layout(constant_id = 7) const bool TRANSPORT = false;
 layout(constant_id = 8) const bool MULTIPLE_ENABLED = true;
+// Light of sky and ground, from a grid of its own.
+layout(constant_id = 9) const bool AMBIENT = false;
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
 layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volume; };
@@ -35,6 +37,7 @@ layout(set = 0, binding = 13) uniform sampler3D skyTable;
 layout(set = 0, binding = 14) uniform sampler3D skyPeak;
 layout(set = 0, binding = 15) uniform sampler3D viewSource;
 layout(set = 0, binding = 16) uniform sampler3D pages;
+layout(set = 0, binding = 17) uniform sampler3D viewAmbient;
 layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "../interface/sky_table.glsl"
@@ -187,6 +190,10 @@ void main() {
         }
         source *= air.light;
         eyeDepth += beta * dt;
+      }
+      if (AMBIENT) {
+        float emits = TRANSPORT ? beta * volume.texelOrigin.w : beta;
+        source += ambientAt(boxOrigin + middle * boxStep) * emits;
       }
       float average = phi1(x) * dt;  // (1 - e^-x) / extinction without the division
       float opacity = x * phi1(x);

@@ -6,17 +6,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "transport.glsl"
+#include "transport_slab.glsl"
 
 layout(local_size_x = 64) in;
-
-// (1 - e^-t) / t, and what a source that grows by 1 along the slab adds to what leaves it:
-// (1 + e^-t) / 2 less the former.
-vec2 slabWeights(float t, float e) {
-  float mean = t > 1.0e-2f ? (1.0f - e) / t : 1.0f - t * (0.5f - t * (1.0f / 6.0f));
-  float slope = t > 0.1f ? 0.5f * (1.0f + e) - mean
-                         : t * t * (1.0f / 12.0f - t * (1.0f / 24.0f - t * (1.0f / 80.0f)));
-  return vec2(mean, slope);
-}
 
 // Of the ray in one slice of cells: source (radiance), extinction (1/m).
 struct Slice {

@@ -20,3 +20,10 @@ vec4 gridAt(vec3 box) {
   cell = clamp(cell, vec3(0.5f), volume.gridEnd.xyz) * volume.gridEnd.w;
   return textureLod(viewSource, cell, 0.0f);
 }
+
+// Light of sky and ground that is scattered towards the eye, as radiance.
+vec3 ambientAt(vec3 box) {
+  vec3 cell = box * volume.ambientScale.xyz + volume.ambientOffset.xyz;
+  cell = clamp(cell, vec3(0.5f), volume.ambientEnd.xyz) * volume.ambientEnd.w;
+  return textureLod(viewAmbient, cell, 0.0f).xyz;
+}

@@ -227,6 +227,9 @@ void WlkContext_T::forgetBindings() {
         for (BoundSet& set : slot.transport) {
           set.bound = {};
         }
+        for (BoundSet& set : slot.ambient) {
+          set.bound = {};
+        }
       }
       for (BoundSet& set : view->resources.shadow.resources.sets) {
         set.bound = {};

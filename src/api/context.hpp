@@ -88,6 +88,9 @@ struct WlkContext_T {
   std::unique_ptr<welkin::SkyFieldEntry> skyField;  // of the last air that was asked for
   welkin::SkyLightState skyLight;
   welkin::SkyLightSource skyLightSource;
+  // What the moments on the GPU, or on their way there, are of; for the ambient light of volumes.
+  std::shared_ptr<const welkin::SkyField> shownField;
+  uint64_t shownFieldVersion = 0;
   std::unique_ptr<welkin::SkyLightWork> skyLightWork;  // for an air that has changed
   welkin::HandlePool<welkin::MediumState> media;
   welkin::HandlePool<welkin::VolumeState> volumes;

@@ -199,6 +199,8 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
       return write(fog(), structSize, structure, FOG_FIRST_SIZE);
     case WLK_STRUCT_ABSORBER:
       return write(absorber(), structSize, structure);
+    case WLK_STRUCT_AMBIENT:
+      return write(blank<WlkAmbient>(sType), structSize, structure);
     case WLK_STRUCT_ATMOSPHERE_PRESET:
       return write(preset(), structSize, structure);
     case WLK_STRUCT_MEDIUM_INFO:

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <utility>
 
+#include "api/ambient_light.hpp"
 #include "api/context.hpp"
 #include "api/control.hpp"
 #include "api/light_stores.hpp"
@@ -252,6 +253,7 @@ void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
   input.volumes = view.planVolumes;
   makePlan(input, view.plan);
   controlPlan(c, view, input);
+  planAmbient(c, view);
   const PlanetFrame eye = planetFrameAt(input.planet, input.eye);
   chooseSkyTable(c.skyLight.now, input.planet.radius, eye, view.plan);
 
@@ -272,7 +274,11 @@ void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
 static void prepareTables(WlkContext_T& c, VolumeState& volume) {
   for (uint32_t i = 0; i < c.views.slotCount(); ++i) {
     if (const ViewState* view = c.views.at(i)) {
-      prepareVolume(*c.device, volume, resolveQuality(view->quality).form());
+      const SliceQuality quality = resolveQuality(view->quality);
+      prepareVolume(*c.device, volume, quality.form());
+      if (quality.ambientCells > 0 && c.air.ambient.mode != WLK_AMBIENT_OFF) {
+        prepareMedia(*c.device, volume);
+      }
     }
   }
 }
@@ -301,6 +307,7 @@ WlkResult wlkPrepare(WlkContext context) {
     features.fog = c.fogActive();
     features.lights = std::max(c.air.lightCount, 1U);
     features.shapedDisk = c.shapedDisk();
+    features.ambient = c.air.ambient.mode != WLK_AMBIENT_OFF;
     prepareSkyLight(c);
     prepareLightStores(c);
     c.recordVolumes.reserve(c.volumes.count());
@@ -324,8 +331,8 @@ WlkResult wlkPrepare(WlkContext context) {
                   {fieldKinds.data(), kinds}, &c.memory);
       view->plan.volumes.reserve(c.volumes.count());
       view->planVolumes.reserve(c.volumes.count());
-      view->record.passes.reserve(3 + 3 * size_t{c.volumes.count()});
-      view->record.times.reserve(3 + 3 * size_t{c.volumes.count()});
+      view->record.passes.reserve(3 + 4 * size_t{c.volumes.count()});
+      view->record.times.reserve(3 + 4 * size_t{c.volumes.count()});
       c.retireView(*view);
       std::swap(view->resources, carrier.resources);
       view->prepared = true;

@@ -19,6 +19,8 @@ PlanInput planInput(const WlkContext_T& c, const ViewState& view) {
     input.fogScaleHeight = c.air.fog->scaleHeight;
   }
   input.planet = c.air.planet;
+  input.ambient = c.air.ambient.mode != WLK_AMBIENT_OFF;
+  input.ambientOfAir = c.air.ambient.mode == WLK_AMBIENT_AUTOMATIC;
   for (uint32_t i = 0; i < c.air.lightCount; ++i) {
     const WlkLight& light = c.air.lights[i];
     if (light.irradiance[0] > 0 || light.irradiance[1] > 0 || light.irradiance[2] > 0) {

@@ -111,6 +111,8 @@ void stage(WlkContext_T& c, const SkyField& field, const SkyLightSource& source)
   if (made) {
     c.skyLight.moments = std::move(made);
   }
+  c.shownField = std::make_shared<const SkyField>(field);
+  ++c.shownFieldVersion;
   c.skyLight.staged = constantsOf(field, source.air);
   c.skyLightSource = source;
 }

@@ -26,6 +26,8 @@ const char* structName(uint32_t sType) {
       return "WlkFog";
     case WLK_STRUCT_ABSORBER:
       return "WlkAbsorber";
+    case WLK_STRUCT_AMBIENT:
+      return "WlkAmbient";
     case WLK_STRUCT_ATMOSPHERE_PRESET:
       return "WlkAtmospherePreset";
     case WLK_STRUCT_MEDIUM_INFO:

@@ -57,6 +57,7 @@ SliceQuality rungQuality(const WlkQuality& quality, uint32_t rung) {
   result.sliceRoom = largest.slices;
   result.stored = !result.halfAngle && fitsLightStore(largest.slices, largest.light);
   result.cellRoom = quality.volumeCells == 0 ? largest.cells : result.transportCells;
+  result.ambientRoom = result.ambientCells > 0 ? ambientCellsOf(result.cellRoom) : 0;
   return result;
 }
 
@@ -74,6 +75,7 @@ SliceQuality roomFor(const WlkQuality& quality) {
   }
   room.sliceCount = batches * room.batchSize;
   room.transportCells = room.cellRoom;
+  room.ambientCells = room.ambientRoom;
   return room;
 }
 

@@ -206,6 +206,17 @@ PlanLights chooseLights(const PlanInput& in, const PlanetFrame& eye, bool& reach
   return chosen;
 }
 
+// Of a volume that is drawn.
+uint32_t ambientReasonOf(const PlanInput& in) {
+  if (!in.ambient || in.quality.ambientCells == 0) {
+    return WLK_REASON_LAYER_OFF;
+  }
+  if (in.ambientOfAir && !showsAir(in)) {
+    return in.sky || in.fog ? WLK_REASON_LAYER_OFF : WLK_REASON_NOTHING_TO_DRAW;
+  }
+  return in.ambientOfAir && in.lights.count == 0 ? WLK_REASON_NO_LIGHT : WLK_REASON_NEEDED;
+}
+
 PlannedVolume planVolume(const PlanInput& in, const PlanLights& lights, const PlanVolume& volume) {
   PlannedVolume result{};
   result.id = volume.id;
@@ -230,9 +241,12 @@ PlannedVolume planVolume(const PlanInput& in, const PlanLights& lights, const Pl
   result.drawn = reason == WLK_REASON_NEEDED || reason == WLK_REASON_NO_SKIP_FLAG;
   result.eyeReason = reason;
   result.lightReason = reason;
+  result.ambientReason = reason;
   if (!result.drawn) {
     return result;
   }
+  result.ambientReason = ambientReasonOf(in);
+  result.ambient = result.ambientReason == WLK_REASON_NEEDED;
   const glm::dvec3 middle = box * glm::dvec4(0.5, 0.5, 0.5, 1.0);
   const PlanLight& light = lights.light[0];
   result.lit = lights.count > 0 && lightReachesVolume(in, light, placeOf(in, corners));
@@ -253,6 +267,11 @@ PlannedVolume planVolume(const PlanInput& in, const PlanLights& lights, const Pl
 }
 
 }  // namespace
+
+uint32_t ambientCellsOf(uint32_t transportCells) {
+  // Light that comes from everywhere varies less inside a volume than the sun's.
+  return (transportCells / 2 + 7) / 8 * 8;
+}
 
 SliceQuality resolveQuality(const WlkQuality& quality) {
   struct Level {
@@ -290,6 +309,8 @@ SliceQuality resolveQuality(const WlkQuality& quality) {
   // their memory.
   result.stored = !result.halfAngle && quality.batchSize == 0 &&
                   fitsLightStore(result.sliceCount, result.lightSize);
+  result.ambientCells = result.multipleSky ? ambientCellsOf(result.transportCells) : 0;
+  result.ambientRoom = result.ambientCells;
   return result;
 }
 
@@ -378,6 +399,7 @@ static uint32_t shadowReasonOf(const PlanInput& in, const Plan& plan) {
 void makePlan(const PlanInput& in, Plan& plan) {
   plan.volumes.clear();
   plan.quality = in.quality;
+  plan.ambient = in.ambient;
   plan.drawnCount = 0;
   plan.volumeRect = {};
   const PlanetFrame eye = planetFrameAt(in.planet, in.eye);

@@ -33,11 +33,16 @@ struct SliceQuality {
   // The light of all slabs is kept for every view of the volume, which has room for so many.
   bool stored;
   uint32_t sliceRoom;
+  // Of the grid for the light of sky and ground; 0 where that is not followed.
+  uint32_t ambientCells;
+  uint32_t ambientRoom;
   bool volumeShadows;  // on air, fog and ground
   bool multipleSky;    // light scattered more than once in air and fog
   // Index of the scattering tables.
   uint32_t form() const { return transport ? 2 : (forwardScattering && wholeOrders ? 1 : 0); }
 };
+// Of the grid for the light of sky and ground, by those for the sun's.
+uint32_t ambientCellsOf(uint32_t transportCells);
 SliceQuality resolveQuality(const WlkQuality& quality);
 // Whether light may be kept for so many slabs and texels along an edge.
 bool fitsLightStore(uint32_t slices, uint32_t lightSize);
@@ -102,6 +107,9 @@ struct PlanInput {
   double fogBaseAltitude = 0;
   double fogScaleHeight = 0;  // m, where `fog`
   PlanLights lights;
+  bool ambient = false;  // light of sky and ground is asked for on volumes
+  // And it is that of the scene's own air, which the view has to show.
+  bool ambientOfAir = false;
   bool mustWrite = false;  // the targets need a value even if nothing is drawn
   WlkPlanet planet{};
   glm::dvec3 eye{0};
@@ -117,6 +125,8 @@ struct PlannedVolume {
   uint32_t index;
   bool drawn;
   bool lit;
+  bool ambient;  // lit by sky and ground
+  uint32_t ambientReason;
   uint32_t lightReason;
   uint32_t eyeReason;
   double distance;
@@ -144,6 +154,7 @@ struct Plan {
   bool allLight = false;    // clear air: its table holds light scattered once, too
   uint32_t skyZeniths = 0;  // of its table
   bool composite = false;
+  bool ambient = false;  // light of sky and ground is asked for on volumes
   SliceQuality quality{};
   bool shadows = false;  // of volumes, on air, fog and ground
   uint32_t shadowReason = WLK_REASON_NEEDED;

@@ -107,8 +107,8 @@ class Recorder {
         {VK_PIPELINE_STAGE_2_TRANSFER_BIT | COMPUTE | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
          VK_ACCESS_2_TRANSFER_WRITE_BIT | SHADER_ACCESS},
         {COMPUTE | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, SHADER_ACCESS});
-    for (vk::Image* table :
-         {&view_.resources.skyTable, &view_.resources.skyPeak, &view_.resources.viewSource}) {
+    for (vk::Image* table : {&view_.resources.skyTable, &view_.resources.skyPeak,
+                             &view_.resources.viewSource, &view_.resources.viewAmbient}) {
       c_.firstUse(*table);
     }
     c_.timestamp();

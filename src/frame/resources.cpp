@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "failure.hpp"
+#include "frame/ambient.hpp"
 #include "frame/ladder.hpp"
 #include "frame/shadow_map_record.hpp"
 #include "frame/transport.hpp"
@@ -56,12 +57,12 @@ class Draft {
 };
 
 VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t volumes) {
-  const uint32_t sets = slots * (2 * volumes + 2);
+  const uint32_t sets = slots * (3 * volumes + 2);
   const std::array sizes{
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, slots * (4 * volumes + 2)},
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, slots * (6 * volumes + 3)},
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, slots * (2 * volumes + 4)},
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, slots * (16 * volumes + 7)}};
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, slots * (6 * volumes + 2)},
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, slots * (8 * volumes + 3)},
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, slots * (3 * volumes + 4)},
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, slots * (22 * volumes + 7)}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.maxSets = sets;
   info.poolSizeCount = static_cast<uint32_t>(sizes.size());
@@ -100,8 +101,12 @@ void makeSlots(vk::Device& device, const vk::Pipelines& pipelines, ViewResources
     for (BoundSet& set : slot.transport) {
       set.set = makeSet(device, r.pool, pipelines.transportSetLayout());
     }
+    slot.ambient.resize(r.ambientGrids.size());
+    for (BoundSet& set : slot.ambient) {
+      set.set = makeSet(device, r.pool, pipelines.ambientSetLayout());
+    }
     slot.passOfQuery.reserve(r.queryCount);
-    slot.passes.reserve(3 + 3 * size_t{r.volumeCapacity});
+    slot.passes.reserve(3 + 4 * size_t{r.volumeCapacity});
     VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
     info.queryCount = r.queryCount;
@@ -151,6 +156,25 @@ void makeTransport(vk::Device& device, const SliceQuality& quality, uint32_t vol
   r.viewSource = vk::Image(device, info);
 }
 
+void makeAmbient(vk::Device& device, const SliceQuality& quality, uint32_t volumes,
+                 ViewResources& r) {
+  const uint32_t cells = quality.ambientCells;
+  const AmbientSizes sizes = ambientSizes({cells, cells, cells});
+  r.ambientWork = vk::Buffer(device, sizes.workBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
+  r.ambientGrids.resize(volumes);
+  for (TransportGrid& grid : r.ambientGrids) {
+    grid.kept = vk::Buffer(device, sizes.keptBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
+    grid.key.reserve(sizeof(interface_::AmbientUniforms) + 3 * sizeof(uint64_t));
+  }
+  vk::ImageInfo info;
+  info.type = VK_IMAGE_TYPE_3D;
+  info.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+  const uint32_t edge = transportImageEdge(cells);
+  info.extent = {edge, edge, edge};
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+  r.viewAmbient = vk::Image(device, info);
+}
+
 void makeHeadlessTargets(vk::Device& device, const WlkViewInfo& info, ViewResources& r) {
   const VkFormat format = targetFormat(info.targetFormat);
   r.depth = makeTarget(device, info.width, info.height, VK_FORMAT_R32_SFLOAT);
@@ -179,10 +203,12 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
           if (!(stored ? features.stores : features.batches)) {
             continue;
           }
-          EyeVariant v{air, fog, lights > 0, depth, false, stored};
-          pipelines.prepare(eyeKey(v, fields, quality));
-          v.allLight = lights > 0 && sky && !fog && quality.multipleSky;
-          pipelines.prepare(eyeKey(v, fields, quality));
+          for (const bool ambient : {false, features.ambient && quality.ambientCells > 0}) {
+            EyeVariant v{air, fog, lights > 0, depth, false, stored, ambient};
+            pipelines.prepare(eyeKey(v, fields, quality));
+            v.allLight = lights > 0 && sky && !fog && quality.multipleSky;
+            pipelines.prepare(eyeKey(v, fields, quality));
+          }
         }
       }
       CompositeVariant v{};
@@ -226,6 +252,11 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
     if (quality.transport) {
       for (const vk::Pass pass : TRANSPORT_PASSES) {
         pipelines.prepare(transportKey(pass, fields));
+      }
+    }
+    for (const vk::Pass pass : AMBIENT_PASSES) {
+      if (features.ambient && quality.ambientCells > 0) {
+        pipelines.prepare(ambientKey(pass, fields));
       }
     }
   }
@@ -283,7 +314,7 @@ vk::PipelineKey eyeKey(const EyeVariant& v, uint32_t fields, const SliceQuality&
   return ofFields({v.stored ? vk::Pass::EyeMarch : vk::Pass::EyeSlices,
                    VK_FORMAT_UNDEFINED,
                    {v.air, v.fog, v.light, 0, quality.forwardScattering, v.depth, v.allLight,
-                    quality.transport && v.light, quality.multipleSky}},
+                    quality.transport && v.light, quality.multipleSky, v.ambient}},
                   fields);
 }
 
@@ -291,6 +322,11 @@ vk::PipelineKey transportKey(vk::Pass pass, uint32_t fields) {
   const bool reads = pass == vk::Pass::TransportDepth || pass == vk::Pass::TransportCells;
   const vk::PipelineKey key{pass, VK_FORMAT_UNDEFINED, {}};
   return reads ? ofFields(key, fields) : key;
+}
+
+vk::PipelineKey ambientKey(vk::Pass pass, uint32_t fields) {
+  const vk::PipelineKey key{pass, VK_FORMAT_UNDEFINED, {}};
+  return pass == vk::Pass::AmbientCells ? ofFields(key, fields) : key;
 }
 
 vk::PipelineKey skyTableKey(uint32_t air, bool fog, uint32_t lights, bool allLight) {
@@ -337,8 +373,10 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   r.transportStride =
       quality.transport ? alignUp(sizeof(interface_::TransportUniforms), alignment) : 0;
   r.transportOffset = alignUp(r.fogOffset + FOG_CURVE_BYTES, both);
-  r.slotStride =
-      r.transportOffset + alignUp(volumeCount * (r.transportStride + r.volumeStride), both);
+  const bool ambient = features.ambient && quality.ambientCells > 0;
+  r.ambientStride = ambient ? alignUp(sizeof(interface_::AmbientUniforms), alignment) : 0;
+  r.ambientOffset = alignUp(r.transportOffset + volumeCount * r.transportStride, both);
+  r.slotStride = r.ambientOffset + alignUp(volumeCount * (r.ambientStride + r.volumeStride), both);
   r.uniforms =
       vk::Buffer(device, r.slotStride * framesInFlight,
                  VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true);
@@ -346,7 +384,7 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
       vk::Buffer(device, counterStride * framesInFlight,
                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
   const uint32_t batches = (quality.sliceCount + quality.batchSize - 1) / quality.batchSize;
-  r.queryCount = 4 + volumeCount * (2 * batches + 2);
+  r.queryCount = 4 + volumeCount * (2 * batches + 3);
   const VkDeviceSize pixels = VkDeviceSize{info.width} * info.height;
   const VkDeviceSize stateBytes = volumeCount > 0 ? pixels * 16 : 16;
   r.frameState = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
@@ -370,6 +408,9 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
     if (quality.transport) {
       makeTransport(device, quality, volumeCount, r);
     }
+    if (ambient) {
+      makeAmbient(device, quality, volumeCount, r);
+    }
     if (quality.volumeShadows) {
       makeViewShadow(device, pipelines, volumeCount, framesInFlight, fieldKinds, r);
     }
@@ -383,8 +424,8 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   makeSlots(device, pipelines, r, framesInFlight, memory);
   view.plan.volumes.reserve(volumeCount);
   view.planVolumes.reserve(volumeCount);
-  view.record.passes.reserve(3 + 3 * size_t{volumeCount});
-  view.record.times.reserve(3 + 3 * size_t{volumeCount});
+  view.record.passes.reserve(3 + 4 * size_t{volumeCount});
+  view.record.times.reserve(3 + 4 * size_t{volumeCount});
   std::swap(view.resources, r);
   view.prepared = true;
 }
@@ -393,14 +434,21 @@ void destroyView(vk::Device& device, ViewState& view) {
   Draft::destroyObjects(device, view.resources);
 }
 
+void prepareMedia(vk::Device& device, VolumeState& volume) {
+  if (volume.transport) {
+    return;
+  }
+  auto media = std::make_shared<const TransportMedia>(transportMedia(volume));
+  vk::Buffer table(device, media->response.size() * sizeof(float),
+                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true);
+  std::memcpy(table.data(), media->response.data(), media->response.size() * sizeof(float));
+  volume.pairTable = std::move(table);
+  volume.transport = std::move(media);
+}
+
 void prepareVolume(vk::Device& device, VolumeState& volume, uint32_t form) {
-  if (form == 2 && !volume.transport) {
-    auto media = std::make_shared<const TransportMedia>(transportMedia(volume));
-    vk::Buffer table(device, media->response.size() * sizeof(float),
-                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true);
-    std::memcpy(table.data(), media->response.data(), media->response.size() * sizeof(float));
-    volume.pairTable = std::move(table);
-    volume.transport = std::move(media);
+  if (form == 2) {
+    prepareMedia(device, volume);
   }
   ScatteringTable& table = volume.tables[form];
   if (table.image) {

@@ -20,6 +20,7 @@ struct SceneFeatures {
   // Of the view's volumes, some or all.
   bool stores = false;   // keep light for all views
   bool batches = false;  // do not
+  bool ambient = false;  // volumes may be lit by sky and ground
 };
 
 VkFormat targetFormat(uint32_t welkinFormat);
@@ -34,6 +35,8 @@ void destroyView(vk::Device& device, ViewState& view);
 // Builds the volume's scattering tables of a form (SliceQuality::form) and the staging copy of
 // them.
 void prepareVolume(vk::Device& device, VolumeState& volume, uint32_t form);
+// What the light of the grids of cells depends on.
+void prepareMedia(vk::Device& device, VolumeState& volume);
 
 constexpr VkDeviceSize FOG_CURVE_BYTES = sizeof(FogPhaseState::curve);
 
@@ -47,6 +50,7 @@ struct EyeVariant {
   uint32_t air;  // Plan::airKind
   bool fog, light, depth, allLight;
   bool stored;  // marches through a store
+  bool ambient;
 };
 vk::PipelineKey eyeKey(const EyeVariant& variant, uint32_t fields, const SliceQuality& quality);
 inline constexpr std::array TRANSPORT_PASSES{
@@ -54,6 +58,10 @@ inline constexpr std::array TRANSPORT_PASSES{
     vk::Pass::TransportGather, vk::Pass::TransportExtrapolate, vk::Pass::TransportRestrict,
     vk::Pass::TransportSource, vk::Pass::TransportResponse,    vk::Pass::TransportView};
 vk::PipelineKey transportKey(vk::Pass pass, uint32_t fields);
+inline constexpr std::array AMBIENT_PASSES{vk::Pass::AmbientCells,  vk::Pass::AmbientSweep,
+                                           vk::Pass::AmbientGather, vk::Pass::AmbientRestrict,
+                                           vk::Pass::AmbientSource, vk::Pass::AmbientView};
+vk::PipelineKey ambientKey(vk::Pass pass, uint32_t fields);
 vk::PipelineKey skyTableKey(uint32_t air, bool fog, uint32_t lights, bool allLight);
 struct CompositeVariant {
   uint32_t air;

@@ -102,6 +102,16 @@ struct LightStore {
   LightStoreKey key;
 };
 
+// Radiance, RGB, of the light outside along each direction of a volume's ambient grid.
+constexpr size_t AMBIENT_LIGHT_DIRECTIONS = 26;
+using AmbientLight = std::array<glm::vec4, AMBIENT_LIGHT_DIRECTIONS>;
+
+// The light of sky and ground on a volume, and what it was made of.
+struct VolumeAmbient {
+  AmbientLight light{};
+  std::vector<char> key;  // empty: nothing yet
+};
+
 struct VolumeState {
   explicit VolumeState(std::pmr::memory_resource* memory)
       : faces{BrickFaces(memory), BrickFaces(memory), BrickFaces(memory), BrickFaces(memory)},
@@ -115,7 +125,8 @@ struct VolumeState {
   vk::Buffer pairTable;                                  // of `transport`, as its passes read it
   uint64_t version = 1;                                  // of the fields' contents
   std::vector<LightStore> lightStores;                   // one per shape that views ask for
-  std::array<BrickFaces, WLK_MAX_FIELDS> faces;          // of Welkin's own images; empty: of none
+  VolumeAmbient ambient;
+  std::array<BrickFaces, WLK_MAX_FIELDS> faces;  // of Welkin's own images; empty: of none
   // Where fields are kept as bricks: the slot of each, a channel per field (pageChannels).
   vk::Image pages;
   std::pmr::vector<float> pageTexels;
@@ -207,13 +218,14 @@ struct ViewSlot {
   BoundSet skyTable;
   std::pmr::vector<BoundSet> volumes;
   std::pmr::vector<BoundSet> transport;  // of the volumes by PlannedVolume::index
+  std::pmr::vector<BoundSet> ambient;    // likewise
   VkQueryPool queries = VK_NULL_HANDLE;
   uint64_t frameIndex = 0;                 // last frame recorded into this slot, 0 if none
   bool harvested = true;                   // its counters and timestamps were read
   std::pmr::vector<uint32_t> passOfQuery;  // query i + 1 ends a command of this pass
   std::pmr::vector<PassTime> passes;       // of that frame, in the plan's order
   explicit ViewSlot(std::pmr::memory_resource* memory)
-      : volumes(memory), transport(memory), passOfQuery(memory), passes(memory) {}
+      : volumes(memory), transport(memory), ambient(memory), passOfQuery(memory), passes(memory) {}
 };
 
 struct ShadowSlot {
@@ -258,13 +270,18 @@ struct ShadowCaster {
 // Images and buffers of a view; remade by wlkPrepare when their sizes change.
 struct ViewResources {
   explicit ViewResources(std::pmr::memory_resource* memory)
-      : grids(memory), shadow(memory), shadowCasters(memory), slots(memory) {}
+      : grids(memory), ambientGrids(memory), shadow(memory), shadowCasters(memory), slots(memory) {}
   vk::Image lightBuffer;
   vk::Image viewSource;  // what cells of the volume in turn scatter towards the eye
   vk::Buffer transportWork;
   VkDeviceSize transportStride = 0;
   VkDeviceSize transportOffset = 0;
   std::pmr::vector<TransportGrid> grids;  // by PlannedVolume::index
+  vk::Image viewAmbient;                  // as viewSource, of the light of sky and ground
+  vk::Buffer ambientWork;
+  VkDeviceSize ambientStride = 0;
+  VkDeviceSize ambientOffset = 0;
+  std::pmr::vector<TransportGrid> ambientGrids;  // by PlannedVolume::index
   ShadowMapState shadow;
   vk::Image shadowImage;  // where the quality asks for shadows on the air
   std::pmr::vector<ShadowCaster> shadowCasters;

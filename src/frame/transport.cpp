@@ -255,6 +255,11 @@ TransportMedia transportMedia(const VolumeState& volume) {
       const double moment = f + (1 - f) * phases[i].moments[static_cast<size_t>(l)];
       media.fieldMoments[i][l] =
           static_cast<float>((albedo * moment - media.peak) / (1 - media.peak));
+      for (int c = 0; c < 3; ++c) {
+        const double own = volume.fields[i].medium.scaledAlbedo()[static_cast<size_t>(c)];
+        media.colorMoments[i][static_cast<size_t>(l)][c] =
+            static_cast<float>((own * moment - media.peak) / (1 - media.peak));
+      }
     }
   }
   const TransportPairs pairs = transportPairs(list, weights);
@@ -269,6 +274,21 @@ TransportMedia transportMedia(const VolumeState& volume) {
   media.response = pairs.response;
   media.response.insert(media.response.end(), pairs.once.begin(), pairs.once.end());
   return media;
+}
+
+float extinctionAtOne(const FieldState& field) {
+  const bool present = field.external.has_value() || field.image;
+  return present ? field.extinctionScale * static_cast<float>(field.medium.extinctionFactor())
+                 : 0.0f;
+}
+
+float transportTaps(const VolumeState& volume, const TransportShape& shape) {
+  double voxels = 1;
+  for (int i = 0; i < 3; ++i) {
+    const auto axis = static_cast<size_t>(i);
+    voxels = std::max(voxels, volume.size[axis] * shape.size[i] / (2.0 * shape.cells[axis]));
+  }
+  return static_cast<float>(std::clamp(std::ceil(voxels - 0.01), 1.0, 4.0));
 }
 
 void fillTransport(const VolumeState& volume, const glm::dvec3& toLight,
@@ -307,23 +327,12 @@ void fillTransport(const VolumeState& volume, const glm::dvec3& toLight,
     out.worldFromBox[i] = glm::vec4(glm::vec3(box[i]), 0);
   }
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
-    const FieldState& field = volume.fields[i];
-    const bool present = field.external.has_value() || field.image;
-    out.extinctionScale[static_cast<int>(i)] =
-        present ? field.extinctionScale * static_cast<float>(field.medium.extinctionFactor())
-                : 0.0f;
+    out.extinctionScale[static_cast<int>(i)] = extinctionAtOne(volume.fields[i]);
     out.fieldMoments[i] = media.fieldMoments[i];
   }
-  // Samples per half cell and axis: one for each voxel.
-  double voxels = 1;
-  for (int i = 0; i < 3; ++i) {
-    const auto axis = static_cast<size_t>(i);
-    voxels = std::max(voxels, volume.size[axis] * shape.size[i] / (2.0 * shape.cells[axis]));
-  }
-  const double taps = std::clamp(std::ceil(voxels - 0.01), 1.0, 4.0);
   out.gridOrigin = glm::vec4(glm::vec3(shape.origin), 0);
   out.gridSize = glm::vec4(glm::vec3(shape.size), 0);
-  out.peak = {static_cast<float>(1 - media.peak), static_cast<float>(taps), 0, 0};
+  out.peak = {static_cast<float>(1 - media.peak), transportTaps(volume, shape), 0, 0};
   fillBricks(volume, out);
 }
 

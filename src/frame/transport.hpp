@@ -32,14 +32,22 @@ TransportSizes transportSizes(const std::array<uint32_t, 3>& cells);
 // In which light travels there.
 uint32_t transportDirections(uint32_t level, const TransportShape& shape);
 
+constexpr size_t TRANSPORT_DEGREES = 4;  // of the moments
+
 // Numbers of a volume's media: what transport takes for the peak, and the rest's moments.
 struct TransportMedia {
   double peak = 0;  // albedo * energy in the peak, mean of the fields
   std::array<glm::vec4, WLK_MAX_FIELDS> fieldMoments{};
+  std::array<std::array<glm::vec4, TRANSPORT_DEGREES>, WLK_MAX_FIELDS> colorMoments{};  // RGB
   std::array<glm::vec4, 24> products{};
   std::vector<float> response;  // RGBA, see PAIR_TABLE_NODES
 };
 TransportMedia transportMedia(const VolumeState& volume);
+
+// Extinction (1/m) at value 1; 0 without an image.
+float extinctionAtOne(const FieldState& field);
+// Samples per half cell and axis: one for each voxel, 1 to 4.
+float transportTaps(const VolumeState& volume, const TransportShape& shape);
 
 void fillTransport(const VolumeState& volume, const glm::dvec3& toLight,
                    const TransportShape& shape, interface_::TransportUniforms& out);

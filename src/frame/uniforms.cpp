@@ -85,6 +85,24 @@ void fillLight(const WlkLight& light, const glm::dvec3& up, interface_::LightUni
   }
 }
 
+// From the unit box to the cells of a grid, whose image has room for `room` cubed.
+struct GridPlace {
+  glm::vec4 scale{0};
+  glm::vec4 offset{0};
+  glm::vec4 end{0};
+};
+GridPlace placeGrid(const TransportShape& shape, uint32_t room) {
+  GridPlace grid;
+  for (int i = 0; i < 3; ++i) {
+    const double cells = shape.cells[static_cast<size_t>(i)];
+    grid.scale[i] = static_cast<float>(cells / shape.size[i]);
+    grid.offset[i] = static_cast<float>(-shape.origin[i] * cells / shape.size[i]);
+    grid.end[i] = static_cast<float>(cells - 0.5);
+  }
+  grid.end.w = 1.0f / static_cast<float>(transportImageEdge(room));
+  return grid;
+}
+
 }  // namespace
 
 bool hasShapedDisk(const WlkLight& light) {
@@ -210,14 +228,18 @@ void fillVolume(const VolumeState& volume, const PlannedVolume& planned, const g
   out.middle = glm::vec4(glm::vec3(box * glm::dvec4(0.5, 0.5, 0.5, 1.0)),
                          static_cast<float>(layout.slabThickness * MARCH_STEP));
   if (quality.transport) {
-    const TransportShape shape = transportShape(volume, quality.transportCells);
-    for (int i = 0; i < 3; ++i) {
-      const double cells = shape.cells[static_cast<size_t>(i)];
-      out.gridScale[i] = static_cast<float>(cells / shape.size[i]);
-      out.gridOffset[i] = static_cast<float>(-shape.origin[i] * cells / shape.size[i]);
-      out.gridEnd[i] = static_cast<float>(cells - 0.5);
-    }
-    out.gridEnd.w = 1.0f / static_cast<float>(transportImageEdge(quality.cellRoom));
+    const GridPlace grid =
+        placeGrid(transportShape(volume, quality.transportCells), quality.cellRoom);
+    out.gridScale = grid.scale;
+    out.gridOffset = grid.offset;
+    out.gridEnd = grid.end;
+  }
+  if (planned.ambient) {
+    const GridPlace grid =
+        placeGrid(transportShape(volume, quality.ambientCells), quality.ambientRoom);
+    out.ambientScale = grid.scale;
+    out.ambientOffset = grid.offset;
+    out.ambientEnd = grid.end;
   }
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
     const FieldState& field = volume.fields[i];

@@ -22,6 +22,8 @@ using uint = uint32_t;
 #include "interface/sky_table.glsl"
 #include "interface/slices.glsl"
 #include "interface/transport.glsl"
+// Needs the one above.
+#include "interface/ambient.glsl"
 }  // namespace interface_
 static_assert(interface_::MAX_LIGHTS == MAX_LIGHTS);
 
@@ -38,6 +40,7 @@ struct AirState {
   std::optional<WlkFog> fog;
   std::shared_ptr<const FogPhaseState> fogPhase;  // where there is fog
   WlkPlanet planet{};
+  WlkAmbient ambient{};
   std::array<WlkLight, MAX_LIGHTS> lights{};
   uint32_t lightCount = 0;
 };

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "failure.hpp"
+#include "frame/ambient_record.hpp"
 #include "frame/light_store.hpp"
 #include "frame/resources.hpp"
 #include "frame/sky_bindings.hpp"
@@ -22,7 +23,7 @@ vk::PipelineKey eyeKeyOf(const FrameCommands& c, const ViewTargets& targets,
   const Plan& plan = c.view.plan;
   const RecordVolume& volume = c.in.volumes[planned.index];
   return eyeKey({plan.airKind(), plan.fog, planned.lit, static_cast<bool>(targets.depth),
-                 plan.allLight, volume.store != nullptr},
+                 plan.allLight, volume.store != nullptr, planned.ambient},
                 volume.state->fieldKind(), c.quality);
 }
 
@@ -54,6 +55,9 @@ class VolumeRecorder {
     if (c_.quality.transport) {
       recordTransportLight();
     }
+    if (c_.view.plan.ambient) {
+      recordAmbientLight();
+    }
     if (planned_.drawn) {
       covered_ = planned_;
       if (rank_ == 0) {
@@ -82,6 +86,17 @@ class VolumeRecorder {
       stats.invocations = made.invocations;
       c_.view.record.stats.dispatches += made.dispatches;
       c_.view.record.stats.barriers += made.barriers;
+      c_.timestamp(static_cast<uint32_t>(passes().size()));
+    }
+    passes().push_back(stats);
+  }
+
+  void recordAmbientLight() {
+    WlkPassStats stats = passStats("volume ambient", WLK_PASS_VOLUME_AMBIENT, planned_.id);
+    stats.reason = planned_.ambientReason;
+    if (planned_.drawn && planned_.ambient) {
+      c_.orderShaders();
+      recordAmbient(c_, planned_, volumeOffset(), stats);
       c_.timestamp(static_cast<uint32_t>(passes().size()));
     }
     passes().push_back(stats);
@@ -185,6 +200,9 @@ class VolumeRecorder {
     b.image(set, vk::BIND_VIEW_SOURCE, r.viewSource ? r.viewSource.view() : c_.in.dummy3d,
             c_.pipelines.linear(),
             r.viewSource ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    b.image(set, vk::BIND_VIEW_AMBIENT, r.viewAmbient ? r.viewAmbient.view() : c_.in.dummy3d,
+            c_.pipelines.linear(),
+            r.viewAmbient ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     const vk::Buffer& volumeState = r.volumeState ? r.volumeState : r.frameState;
     b.buffer(set, vk::BIND_FRAME_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, r.frameState.handle(), 0,
              r.frameState.size());
@@ -239,6 +257,11 @@ void findVolumePipelines(const FrameCommands& commands, const ViewTargets& targe
   for (const vk::Pass pass : TRANSPORT_PASSES) {
     if (commands.quality.transport && planned.lit) {
       commands.find(transportKey(pass, fields));
+    }
+  }
+  for (const vk::Pass pass : AMBIENT_PASSES) {
+    if (planned.ambient) {
+      commands.find(ambientKey(pass, fields));
     }
   }
 }

@@ -3,6 +3,12 @@
 
 #include <span>
 
+#include "ambient_cells_comp_spv.h"
+#include "ambient_gather_comp_spv.h"
+#include "ambient_restrict_comp_spv.h"
+#include "ambient_source_comp_spv.h"
+#include "ambient_sweep_comp_spv.h"
+#include "ambient_view_comp_spv.h"
 #include "composite_blend_frag_spv.h"
 #include "composite_comp_spv.h"
 #include "composite_vert_spv.h"
@@ -143,6 +149,17 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
     transport[BIND_TRANSPORT_VIEW].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     transportSet_ = makeSetLayout(device_, transport);
     transportLayout_ = makeLayout(device_, transportSet_);
+    std::array<VkDescriptorSetLayoutBinding, AMBIENT_BINDING_COUNT> ambient{};
+    for (uint32_t i = 0; i < AMBIENT_BINDING_COUNT; ++i) {
+      ambient[i] = binding(i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+    }
+    ambient[BIND_AMBIENT_UNIFORMS].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    ambient[BIND_AMBIENT_WORK].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    ambient[BIND_AMBIENT_KEPT].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    ambient[BIND_AMBIENT_TARGET].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    ambient[BIND_AMBIENT_VIEW].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    ambientSet_ = makeSetLayout(device_, ambient);
+    ambientLayout_ = makeLayout(device_, ambientSet_);
     std::array<VkDescriptorSetLayoutBinding, SHADOW_BINDING_COUNT> shadow{};
     for (uint32_t i = 0; i < SHADOW_BINDING_COUNT; ++i) {
       shadow[i] = binding(i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
@@ -179,6 +196,8 @@ void Pipelines::destroy() {
   vk.DestroySampler(device, nearest_, nullptr);
   vk.DestroyPipelineLayout(device, skyLayout_, nullptr);
   vk.DestroyDescriptorSetLayout(device, skySet_, nullptr);
+  vk.DestroyPipelineLayout(device, ambientLayout_, nullptr);
+  vk.DestroyDescriptorSetLayout(device, ambientSet_, nullptr);
   vk.DestroyPipelineLayout(device, shadowLayout_, nullptr);
   vk.DestroyDescriptorSetLayout(device, shadowSet_, nullptr);
   vk.DestroyPipelineLayout(device, transportLayout_, nullptr);
@@ -218,6 +237,18 @@ Pipelines::Compute Pipelines::computeOf(Pass pass) const {
       return {eye_march_comp_spv, volumeLayout_};
     case Pass::SkyTable:
       return {sky_table_comp_spv, skyLayout_};
+    case Pass::AmbientCells:
+      return {ambient_cells_comp_spv, ambientLayout_};
+    case Pass::AmbientSweep:
+      return {ambient_sweep_comp_spv, ambientLayout_};
+    case Pass::AmbientGather:
+      return {ambient_gather_comp_spv, ambientLayout_};
+    case Pass::AmbientRestrict:
+      return {ambient_restrict_comp_spv, ambientLayout_};
+    case Pass::AmbientSource:
+      return {ambient_source_comp_spv, ambientLayout_};
+    case Pass::AmbientView:
+      return {ambient_view_comp_spv, ambientLayout_};
     case Pass::TransportDepth:
       return {transport_depth_comp_spv, transportLayout_};
     case Pass::TransportCells:

@@ -30,7 +30,13 @@ enum class Pass : uint32_t {
   TransportSource,
   TransportView,
   ShadowMap,
-  ShadowResolve
+  ShadowResolve,
+  AmbientCells,
+  AmbientSweep,
+  AmbientGather,
+  AmbientRestrict,
+  AmbientSource,
+  AmbientView
 };
 
 constexpr uint32_t MAX_CONSTANTS = 13;
@@ -59,7 +65,8 @@ enum VolumeBinding : uint32_t {
   BIND_SKY_PEAK = 14,
   BIND_VIEW_SOURCE = 15,
   BIND_PAGES = 16,
-  VOLUME_BINDING_COUNT = 17
+  BIND_VIEW_AMBIENT = 17,
+  VOLUME_BINDING_COUNT = 18
 };
 enum CompositeBinding : uint32_t {
   BIND_COMPOSITE_FRAME = 0,
@@ -96,6 +103,17 @@ enum TransportBinding : uint32_t {
   TRANSPORT_BINDING_COUNT = 11
 };
 
+enum AmbientBinding : uint32_t {
+  BIND_AMBIENT_UNIFORMS = 0,
+  BIND_AMBIENT_WORK = 1,
+  BIND_AMBIENT_KEPT = 2,
+  BIND_AMBIENT_FIELD0 = 3,
+  BIND_AMBIENT_TARGET = 7,
+  BIND_AMBIENT_VIEW = 8,
+  BIND_AMBIENT_PAGES = 9,
+  AMBIENT_BINDING_COUNT = 10
+};
+
 enum ShadowBinding : uint32_t {
   BIND_SHADOW_VOLUME = 0,
   BIND_SHADOW_SUMS = 1,
@@ -122,6 +140,8 @@ class Pipelines {
   VkDescriptorSetLayout skySetLayout() const { return skySet_; }
   VkDescriptorSetLayout transportSetLayout() const { return transportSet_; }
   VkDescriptorSetLayout shadowSetLayout() const { return shadowSet_; }
+  VkDescriptorSetLayout ambientSetLayout() const { return ambientSet_; }
+  VkPipelineLayout ambientLayout() const { return ambientLayout_; }
   VkPipelineLayout shadowLayout() const { return shadowLayout_; }
   VkPipelineLayout transportLayout() const { return transportLayout_; }
   VkPipelineLayout skyLayout() const { return skyLayout_; }
@@ -151,6 +171,8 @@ class Pipelines {
   VkDescriptorSetLayout skySet_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout transportSet_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout shadowSet_ = VK_NULL_HANDLE;
+  VkDescriptorSetLayout ambientSet_ = VK_NULL_HANDLE;
+  VkPipelineLayout ambientLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout shadowLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout transportLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout volumeLayout_ = VK_NULL_HANDLE;

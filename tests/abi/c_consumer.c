@@ -131,6 +131,7 @@ static void atmosphere(WlkContext context) {
   EXPECT(WLK_SUCCESS, wlkInitMoon(preset.sun.direction, toMoon, preset.sun.irradiance, &moon));
   EXPECT(WLK_SUCCESS, wlkSetLights(context, 1, sizeof moon, &moon));
   EXPECT(WLK_SUCCESS, wlkSetAbsorber(context, NULL));
+  EXPECT(WLK_SUCCESS, wlkSetAmbient(context, NULL));
 }
 
 static void scene(WlkContext context) {

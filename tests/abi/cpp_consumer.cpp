@@ -91,7 +91,7 @@ static void errorsNameTheField() {
 
 int main() {
   makeSetsTheHead<WlkErrorInfo, WlkContextInfo, WlkHeadlessInfo, WlkCapabilities, WlkPlanet, WlkSky,
-                  WlkLight, WlkFog, WlkAbsorber, WlkAtmospherePreset, WlkMediumInfo,
+                  WlkLight, WlkFog, WlkAbsorber, WlkAmbient, WlkAtmospherePreset, WlkMediumInfo,
                   WlkMediumOptics, WlkVolumeInfo, WlkVolumeUpload, WlkVolumeBricks, WlkVolumeState,
                   WlkViewInfo, WlkCamera, WlkQuality, WlkQualityState, WlkFrameInfo,
                   WlkHeadlessTargets, WlkImageData, WlkFrameStats, WlkRayBatch, WlkPhaseQuery,

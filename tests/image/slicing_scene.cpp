@@ -133,6 +133,7 @@ void SlicingScene::setCamera(const Camera& camera) {
 
 void SlicingScene::setQuality(const Quality& quality) {
   auto q = welkin::make<WlkQuality>();
+  q.level = quality.level;
   q.sliceCount = quality.slices;
   q.batchSize = quality.batch;
   q.lightBufferSize = quality.lightSize;

@@ -45,6 +45,7 @@ struct Camera {
 };
 
 struct Quality {
+  uint32_t level = WLK_QUALITY_HIGH;
   uint32_t slicing = WLK_SLICING_DEFAULT;
   uint32_t scattering = WLK_SCATTERING_SINGLE;
   uint32_t slices = 128;

@@ -51,6 +51,7 @@ VictimScene::VictimScene() : scene(victimOptions()) {
 void VictimScene::restore() {
   check(wlkSetPlanet(scene.context, nullptr));
   check(wlkSetAbsorber(scene.context, nullptr));
+  check(wlkSetAmbient(scene.context, nullptr));
   scene.setSky();
   scene.setFog(2e-4f, 300.0f);
   scene.setSun(35.0, 20.0);

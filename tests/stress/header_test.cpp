@@ -45,22 +45,28 @@ TEST(StructHeader, OfSceneStructuresIsCheckedBeforeAnythingChanges) {
   auto light = make<WlkLight>();
   light.irradiance[1] = 7.0f;
   const auto absorber = make<WlkAbsorber>();
+  auto ambient = make<WlkAmbient>();
+  ambient.mode = WLK_AMBIENT_GIVEN;
+  ambient.sky[1] = 3.0f;
   const auto setPlanet = [&](const WlkPlanet* p) { return wlkSetPlanet(c, p); };
   const auto setSky = [&](const WlkSky* p) { return wlkSetSky(c, p); };
   const auto setFog = [&](const WlkFog* p) { return wlkSetFog(c, p); };
   const auto setLight = [&](const WlkLight* p) { return wlkSetLights(c, 1, sizeof *p, p); };
   const auto setAbsorber = [&](const WlkAbsorber* p) { return wlkSetAbsorber(c, p); };
+  const auto setAmbient = [&](const WlkAmbient* p) { return wlkSetAmbient(c, p); };
   abuseHeader<WlkPlanet>(planet, setPlanet);
   abuseHeader<WlkSky>(sky, setSky);
   abuseHeader<WlkFog>(fog, setFog);
   abuseHeader<WlkLight>(light, setLight);
   abuseHeader<WlkAbsorber>(absorber, setAbsorber);
+  abuseHeader<WlkAmbient>(ambient, setAmbient);
   victim.expectUnchanged();
   expectLongerAccepted<WlkPlanet>(planet, setPlanet);
   expectLongerAccepted<WlkSky>(sky, setSky);
   expectLongerAccepted<WlkFog>(fog, setFog);
   expectLongerAccepted<WlkLight>(light, setLight);
   expectLongerAccepted<WlkAbsorber>(absorber, setAbsorber);
+  expectLongerAccepted<WlkAmbient>(ambient, setAmbient);
   victim.restore();
   victim.expectUnchanged();
 }

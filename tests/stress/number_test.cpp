@@ -115,6 +115,23 @@ TEST(NumberFields, OfAbsorbersAreRefusedOrHarmless) {
       });
 }
 
+TEST(NumberFields, OfAmbientLightAreRefusedOrHarmless) {
+  const WlkContext c = VictimScene::get().scene.context;
+  auto ambient = make<WlkAmbient>();
+  ambient.mode = WLK_AMBIENT_GIVEN;
+  ambient.sky[2] = 0.5f;
+  ambient.harmonics[4] = -0.1f;
+  abuseNumbers<WlkAmbient>(
+      ambient,
+      {FLOATS(WlkAmbient, sky, 3), FLOATS(WlkAmbient, ground, 3),
+       FLOATS(WlkAmbient, harmonics, WLK_AMBIENT_VALUES)},
+      [&](const WlkAmbient& p) { return wlkSetAmbient(c, &p); },
+      [&] {
+        ASSERT_EQ(wlkSetAmbient(c, nullptr), WLK_SUCCESS);
+        ASSERT_EQ(wlkPrepare(c), WLK_SUCCESS);
+      });
+}
+
 TEST(NumberFields, OfLightAndFogAreRefusedOrHarmless) {
   const WlkContext c = VictimScene::get().scene.context;
   auto light = make<WlkLight>();

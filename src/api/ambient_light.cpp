@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "api/ambient_light.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "api/sky_map.hpp"
+#include "frame/ambient.hpp"
+
+namespace welkin {
+namespace {
+
+// Texels along a side of the map that the sky is taken from: irradiances on the six sides of a box
+// are within 2 % of those by a map of 32 (AmbientSource.OfTheSkyIsThatOfAFineMap).
+constexpr uint32_t MAP_SIZE = 8;
+
+class Key {
+ public:
+  template <typename T>
+  void add(const T& value) {
+    const auto* bytes = reinterpret_cast<const char*>(&value);
+    data_.insert(data_.end(), bytes, bytes + sizeof value);
+  }
+  template <typename T>
+  void add(const std::optional<T>& value) {
+    data_.push_back(value ? 1 : 0);
+    if (value) {
+      add(*value);
+    }
+  }
+  std::vector<char> take() { return std::move(data_); }
+
+ private:
+  std::vector<char> data_;
+};
+
+std::vector<char> keyOf(const WlkContext_T& c, const VolumeState& volume, int thinAxis) {
+  Key key;
+  key.add(c.air.ambient);
+  key.add(volume.worldFromBox);
+  key.add(thinAxis);
+  key.add(c.air.planet);
+  if (c.air.ambient.mode == WLK_AMBIENT_AUTOMATIC) {
+    key.add(c.air.sky);
+    key.add(c.air.absorber);
+    key.add(c.air.fog);
+    key.add(c.air.fogPhase.get());
+    key.add(c.air.lights);
+    key.add(c.air.lightCount);
+    key.add(c.shownFieldVersion);
+  }
+  return key.take();
+}
+
+glm::dvec3 middleOf(const VolumeState& volume) {
+  return volume.worldFromBox * glm::dvec4(0.5, 0.5, 0.5, 1);
+}
+
+std::vector<AmbientSample> skySamples(const WlkContext_T& c, const PlanetFrame& place) {
+  std::vector<SkyMap> maps;
+  for (uint32_t l = 0; l < c.air.lightCount; ++l) {
+    maps.emplace_back(c.air, place, l, c.shownField.get());
+  }
+  std::vector<AmbientSample> samples;
+  samples.reserve(MAP_SIZE * MAP_SIZE);
+  const double halfWidth = 1.0 / MAP_SIZE;
+  for (uint32_t j = 0; j < MAP_SIZE; ++j) {
+    for (uint32_t i = 0; i < MAP_SIZE; ++i) {
+      const glm::dvec2 uv((2.0 * i + 1) * halfWidth - 1, (2.0 * j + 1) * halfWidth - 1);
+      AmbientSample sample{octahedralDirection(uv), octahedralSolidAngle(uv, MAP_SIZE),
+                           glm::dvec3(0)};
+      for (const SkyMap& map : maps) {
+        sample.radiance += map.texel(uv, halfWidth);
+      }
+      samples.push_back(sample);
+    }
+  }
+  return samples;
+}
+
+// Sloan, Stupid Spherical Harmonics Tricks, 2008.
+glm::dvec3 harmonicSum(const float (&c)[WLK_AMBIENT_VALUES], const glm::dvec3& v) {
+  const double y[WLK_AMBIENT_VALUES / 3] = {0.28209479177387814,
+                                            0.48860251190291992 * v.y,
+                                            0.48860251190291992 * v.z,
+                                            0.48860251190291992 * v.x,
+                                            1.0925484305920792 * v.x * v.y,
+                                            1.0925484305920792 * v.y * v.z,
+                                            0.31539156525252005 * (3 * v.z * v.z - 1),
+                                            1.0925484305920792 * v.x * v.z,
+                                            0.54627421529603959 * (v.x * v.x - v.y * v.y)};
+  glm::dvec3 sum(0);
+  for (size_t i = 0; i < WLK_AMBIENT_VALUES / 3; ++i) {
+    sum += y[i] * glm::dvec3(c[3 * i], c[3 * i + 1], c[3 * i + 2]);
+  }
+  return sum;
+}
+
+// Rings of equal solid angle around the local up: none crosses the horizontal plane.
+std::vector<AmbientSample> givenSamples(const WlkAmbient& given, const glm::dvec3& up) {
+  constexpr int RINGS = 16;
+  constexpr int AROUND = 24;
+  const glm::dvec3 other = std::abs(up.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
+  const glm::dvec3 a = glm::normalize(glm::cross(up, other));
+  const glm::dvec3 b = glm::cross(up, a);
+  std::vector<AmbientSample> samples;
+  samples.reserve(size_t{RINGS} * AROUND);
+  for (int ring = 0; ring < RINGS; ++ring) {
+    const double height = (2.0 * ring + 1) / RINGS - 1;
+    const double flat = std::sqrt(1 - height * height);
+    for (int i = 0; i < AROUND; ++i) {
+      const double azimuth = 2 * std::numbers::pi * (i + 0.5 * (ring & 1)) / AROUND;
+      const glm::dvec3 from = height * up + flat * (std::cos(azimuth) * a + std::sin(azimuth) * b);
+      const float(&side)[3] = height > 0 ? given.sky : given.ground;
+      const glm::dvec3 radiance =
+          glm::dvec3(side[0], side[1], side[2]) + harmonicSum(given.harmonics, from);
+      samples.push_back(
+          {from, 4 * std::numbers::pi / (RINGS * AROUND), glm::max(radiance, glm::dvec3(0))});
+    }
+  }
+  return samples;
+}
+
+AmbientLight lightOn(const WlkContext_T& c, const VolumeState& volume,
+                     const TransportShape& shape) {
+  constexpr double FARTHEST = 1e9;  // m, as positions of queries
+  glm::dvec3 middle = middleOf(volume);
+  if (!(glm::length(middle) <= FARTHEST)) {
+    middle = glm::dvec3(0);
+  }
+  const PlanetFrame place = planetFrameAt(c.air.planet, middle);
+  const bool given = c.air.ambient.mode == WLK_AMBIENT_GIVEN;
+  return ambientThrough(glm::dmat3(volume.worldFromBox), shape,
+                        given ? givenSamples(c.air.ambient, place.up) : skySamples(c, place));
+}
+
+}  // namespace
+
+void planAmbient(WlkContext_T& c, ViewState& view) {
+  for (PlannedVolume& planned : view.plan.volumes) {
+    if (!planned.ambient) {
+      continue;
+    }
+    VolumeState& volume = *c.volumes.find(planned.id);
+    const TransportShape shape = transportShape(volume, view.plan.quality.ambientCells);
+    std::vector<char> key = keyOf(c, volume, shape.thinAxis);
+    if (key != volume.ambient.key) {
+      volume.ambient.light = lightOn(c, volume, shape);
+      volume.ambient.key = std::move(key);
+    }
+    if (dark(volume.ambient.light) && !view.plan.quality.noSkip) {
+      planned.ambient = false;
+      planned.ambientReason = WLK_REASON_NO_LIGHT;
+    }
+  }
+}
+
+}  // namespace welkin
+
+namespace {
+
+using namespace welkin;
+
+WlkAmbient checkedAmbient(const WlkAmbient* ambient) {
+  const WlkAmbient a = copyStruct(ambient, WLK_STRUCT_AMBIENT);
+  checkNoChain(ambient);
+  checkRange(a.sType, "mode", a.mode, WLK_AMBIENT_OFF, WLK_AMBIENT_GIVEN);
+  checkRange3(a.sType, "sky", a.sky, 0, 1e6);
+  checkRange3(a.sType, "ground", a.ground, 0, 1e6);
+  for (const float x : a.harmonics) {
+    checkRange(a.sType, "harmonics", x, -1e6, 1e6);
+  }
+  return a;
+}
+
+}  // namespace
+
+WlkResult wlkSetAmbient(WlkContext context, const WlkAmbient* ambient) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    WlkAmbient value{};
+    if (ambient != nullptr) {
+      value = checkedAmbient(ambient);
+      value.next = nullptr;
+    }
+    if ((value.mode == WLK_AMBIENT_OFF) != (c.air.ambient.mode == WLK_AMBIENT_OFF)) {
+      c.invalidate();
+    }
+    c.air.ambient = value;
+    return WLK_SUCCESS;
+  });
+}
