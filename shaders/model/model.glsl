@@ -15,4 +15,5 @@
 #include "sky/disk.glsl"
 #include "volume/slices.glsl"
 #include "volume/forward_scattering.glsl"
+#include "volume/canonical_slab.glsl"
 #include "composite.glsl"

@@ -205,10 +205,11 @@ SlabTransport SlabLight::at(size_t lane, size_t direction, bool up, size_t depth
   double x = 0;
   double y = 0;
   double spread = 0;
+  const double turnC = std::cos(phi);
+  const double turnS = std::sin(phi);
+  double c = 1;  // of m phi
+  double s = 0;
   for (size_t m = 0; m <= modes; ++m) {
-    const double angle = static_cast<double>(m) * phi;
-    const double c = std::cos(angle);
-    const double s = std::sin(angle);
     const double twice = m == 0 ? 1 : 2;
     radiance += twice * c * intensity_[m][i];
     spread += twice * c * spread_[m][i];
@@ -218,6 +219,9 @@ SlabTransport SlabLight::at(size_t lane, size_t direction, bool up, size_t depth
       x += c * shift_[modes - m][i];
       y -= s * shift_[modes - m][i];
     }
+    const double next = c * turnC - s * turnS;
+    s = s * turnC + c * turnS;
+    c = next;
   }
   SlabTransport result;
   result.radiance = radiance;

@@ -17,4 +17,5 @@ const int CASE_AIR_DEPTH = 13;
 const int CASE_AIR = 14;
 const int CASE_SAMPLE = 15;
 const int CASE_CURVE = 16;
-const int CASE_COUNT = 17;
+const int CASE_CANONICAL = 17;
+const int CASE_COUNT = 18;

@@ -106,6 +106,14 @@ ParityResult parityCase(int which, ParityRow r) {
     o.first.y = depthCoordinate(r.a.y);
     o.first.z = forwardLoss(r.a.z, r.a.w);
   }
+  if (which == CASE_CANONICAL) {
+    o.first = vec4(canonicalThickness(r.a.x), canonicalDepth(r.a.y, r.a.x), canonicalCosine(r.a.z),
+                   canonicalLength(r.a.y, r.a.x, r.a.z));
+    vec2 inside = canonicalInside(r.a.x, r.a.y);
+    vec4 weights = canonicalCubic(r.a.w);
+    o.second = vec4(inside.y, canonicalRadiance(r.b.x, r.b.y, r.b.z, o.first.w), weights.x,
+                    weights.y);
+  }
   if (which == CASE_SLICES) {
     vec3 axis = halfAngleAxis(head(r.a), head(r.b));
     o.first = vec4(axis, slabOpacity(r.c.x));

@@ -198,6 +198,15 @@ Row makeRow(int which, Random& random, size_t i) {
       row[2] = random.uniform(0, 1);
       row[3] = random.uniform(0.5, 1);
       break;
+    case CASE_CANONICAL:
+      row[0] = random.logarithmic(1e-3, 1e4);
+      row[1] = row[0] * random.uniform(0, 1);
+      row[2] = random.uniform(-1, 1);
+      row[3] = random.uniform(0, 1);
+      row[4] = random.uniform(-30, 3);
+      row[5] = random.logarithmic(1e-4, 10);
+      row[6] = random.uniform(0.001, 1);
+      break;
     case CASE_SLICES:
       slicesRow(random, row);
       break;
@@ -256,7 +265,7 @@ const char* caseName(int which) {
       "Numeric",       "Box",         "Altitude",        "Ground",   "Phase",
       "FogParameters", "FogPhase",    "ScatteringTable", "Slices",   "Composite",
       "Segment",       "FlatSegment", "Light",           "AirDepth", "Air",
-      "Sample",        "Curve"};
+      "Sample",        "Curve",       "Canonical"};
   return NAMES[which];
 }
 
