@@ -147,7 +147,7 @@ typedef struct WlkAmbient {
 } WlkAmbient;
 
 /** Sets the ambient light of volumes; null means OFF. From or to OFF needs wlkPrepare. AUTOMATIC
- *  costs 2 ms of CPU time for each volume in a frame before which planet, air, lights or the
+ *  costs 4 ms of CPU time for each volume in a frame before which planet, air, lights or the
  *  volume's place have changed. [C] Errors: INVALID_ARGUMENT (mode, sky, ground, harmonics). */
 WLK_API WlkResult wlkSetAmbient(WlkContext context, const WlkAmbient* ambient);
 

@@ -213,4 +213,43 @@ TEST(QueryIrradiance, FadesThroughTwilight) {
   }
 }
 
+// The map that volumes take the light of sky and ground from.
+TEST(QuerySkyMap, OfTwelveTexelsLightsABoxAsAFineOneDoes) {
+  constexpr size_t COARSE = 12;
+  constexpr size_t FINE = 32;
+  const SkyScene scene;
+  scene.setSky();
+  for (const double elevation : {5.0, 30.0, 70.0}) {
+    double most = 0;
+    scene.setSun(towards(elevation, 40));
+    for (const double altitude : {10.0, 1500.0, 9000.0}) {
+      const auto irradiances = [&](size_t size) {
+        auto query = make<WlkSkyMapQuery>();
+        query.position[1] = altitude;
+        query.size = static_cast<uint32_t>(size);
+        std::vector<float> rgb(3 * size * size);
+        check(wlkEvalSkyMap(scene.context, &query, rgb.data()));
+        std::vector<Rgb> sides;
+        for (size_t axis = 0; axis < 3; ++axis) {
+          for (const double sign : {-1.0, 1.0}) {
+            Point normal{};
+            normal[axis] = sign;
+            sides.push_back(irradianceOfMap(rgb, size, normal));
+          }
+        }
+        return sides;
+      };
+      const std::vector<Rgb> coarse = irradiances(COARSE);
+      const std::vector<Rgb> fine = irradiances(FINE);
+      for (size_t side = 0; side < coarse.size(); ++side) {
+        for (size_t c = 0; c < 3; ++c) {
+          most = std::max(most, std::abs(coarse[side][c] / fine[side][c] - 1));
+        }
+      }
+    }
+    // Twilight's red is a narrow band.
+    EXPECT_LT(most, elevation < 10 ? 0.13 : 0.06) << elevation;
+  }
+}
+
 }  // namespace
