@@ -38,12 +38,14 @@ layout(set = 0, binding = 14) uniform sampler3D skyPeak;
 layout(set = 0, binding = 15) uniform sampler3D viewSource;
 layout(set = 0, binding = 16) uniform sampler3D pages;
 layout(set = 0, binding = 17) uniform sampler3D viewAmbient;
+layout(set = 0, binding = 18) uniform sampler3D leaps;
 layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "../interface/sky_table.glsl"
 #include "ray.glsl"
 #include "fog_curve.glsl"
 #include "fields.glsl"
+#include "leaps.glsl"
 #include "air_column.glsl"
 #include "sky_lookup.glsl"
 #include "air_nodes.glsl"
@@ -152,6 +154,11 @@ void main() {
       }
     }
     do {
+      if (LEAPS) {
+        // The stretch takes up those after it in which there is nothing: no sample is lost.
+        float here = 0.5f * (s + min(first * dt, last));
+        first += emptySteps(m.box + here * m.boxStep, m.boxStep, dt);
+      }
       float next = min(first * dt, last);
       float stretch = max(next - s, 0.0f);
       float middle = s + 0.5f * stretch;

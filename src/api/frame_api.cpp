@@ -6,6 +6,7 @@
 #include "api/ambient_light.hpp"
 #include "api/context.hpp"
 #include "api/control.hpp"
+#include "api/leap_maps.hpp"
 #include "api/light_stores.hpp"
 #include "api/plan_input.hpp"
 #include "api/sky_light.hpp"
@@ -211,7 +212,12 @@ void recordUpdate(WlkContext_T& c, VkCommandBuffer commands) {
   for (PendingUpload& upload : c.pending) {
     VolumeState& volume = *c.volumes.find(upload.volumeId);
     ++volume.version;
-    vk::Image& image = upload.field == PAGES ? volume.pages : volume.fields[upload.field].image;
+    if (upload.field == LEAPS) {
+      fillLeaps(volume, upload.staging);
+    }
+    vk::Image& image = upload.field == PAGES   ? volume.pages
+                       : upload.field == LEAPS ? volume.leaps
+                                               : volume.fields[upload.field].image;
     copyInto(vk, commands, upload.staging, image, upload.region, partial(upload.region, image));
     c.bytesUploaded += upload.staging.size();
     ++c.updateCopies;
@@ -287,6 +293,7 @@ WlkResult wlkPrepare(WlkContext context) {
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
     vk::Device& device = c.requireDevice("wlkPrepare");
+    prepareLeaps(c);
     std::array<bool, FIELD_KINDS> used{};
     for (uint32_t i = 0; i < c.volumes.slotCount(); ++i) {
       if (VolumeState* volume = c.volumes.at(i)) {

@@ -5,6 +5,7 @@
 
 #include "api/brick_data.hpp"
 #include "api/context.hpp"
+#include "api/leap_maps.hpp"
 
 namespace {
 
@@ -17,18 +18,6 @@ vk::Image makeFieldImage(vk::Device& device, VkFormat format, const Edges& texel
   info.extent = {texels[0], texels[1], texels[2]};
   info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   return vk::Image(device, info);
-}
-
-PendingUpload makePending(vk::Device& device, uint64_t volume, uint32_t field, const Edges& texels,
-                          uint64_t texelBytes) {
-  PendingUpload pending;
-  pending.volumeId = volume;
-  pending.field = field;
-  pending.staging = vk::Buffer(device, texelBytes * texels[0] * texels[1] * texels[2],
-                               VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true);
-  pending.region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-  pending.region.imageExtent = {texels[0], texels[1], texels[2]};
-  return pending;
 }
 
 void forgetPending(WlkContext_T& c, uint64_t volume, uint32_t field) {
@@ -117,7 +106,8 @@ uint64_t imageBytes(const vk::Image& image) {
     return 0;
   }
   const vk::ImageInfo& info = image.info();
-  const uint64_t texel = info.format == VK_FORMAT_R16_SFLOAT            ? 2
+  const uint64_t texel = info.format == VK_FORMAT_R8_UNORM              ? 1
+                         : info.format == VK_FORMAT_R16_SFLOAT          ? 2
                          : info.format == VK_FORMAT_R32G32B32A32_SFLOAT ? 16
                                                                         : 4;
   return texel * info.extent.width * info.extent.height * info.extent.depth;
@@ -156,6 +146,7 @@ WlkResult wlkUploadVolume(WlkContext context, WlkVolume volume, const WlkVolumeU
     faces.resize(brickGrid(state.size).total());
     const VoxelSums sums = convertVoxels(u, toFloat, pending.staging.data(), state.size, faces);
     Retired& room = c.retired.emplace_back(&c.memory);
+    renewLeaps(c, volume.id, state);
     c.pending.push_back({});
     // Nothing throws from here on.
     if (image) {
@@ -164,6 +155,7 @@ WlkResult wlkUploadVolume(WlkContext context, WlkVolume volume, const WlkVolumeU
     }
     c.pending.back() = std::move(pending);
     state.faces[u.field].swap(faces);
+    ++state.uploads;
     const double all = double(state.size[0]) * state.size[1] * state.size[2];
     takeSums(state, sums, double(u.extent[0]) * u.extent[1] * u.extent[2] / all, field);
     return WLK_SUCCESS;
@@ -204,6 +196,7 @@ WlkResult wlkUploadVolumeBricks(WlkContext context, WlkVolume volume,
     writePages(state, b.field, contents.reached, shape, pageTexels);
     PendingUpload pendingPages = stagePages(device, volume.id, state, pageTexels);
     Retired& room = c.retired.emplace_back(&c.memory);
+    renewLeaps(c, volume.id, state);
     c.pending.reserve(c.pending.size() + 2);
     // Nothing throws from here on.
     if (image) {
@@ -221,6 +214,7 @@ WlkResult wlkUploadVolumeBricks(WlkContext context, WlkVolume volume,
     }
     field.slots = contents.reached.size();
     state.faces[b.field].swap(contents.faces);
+    ++state.uploads;
     takeSums(state, contents.sums, 1, field);
     return WLK_SUCCESS;
   });
@@ -233,7 +227,6 @@ WlkResult wlkGetVolumeState(WlkContext context, WlkVolume volume, WlkVolumeState
     checkOutput(state, WLK_STRUCT_VOLUME_STATE, sizeof *state);
     const BrickGrid grid = brickGrid(v.size);
     std::copy(grid.count.begin(), grid.count.end(), state->bricks);
-    state->reserved0 = 0;
     state->occupiedBricks = 0;
     for (size_t i = 0; i < grid.total(); ++i) {
       state->occupiedBricks +=
@@ -241,8 +234,9 @@ WlkResult wlkGetVolumeState(WlkContext context, WlkVolume volume, WlkVolumeState
                       [&](const BrickFaces& faces) { return !faces.empty() && faces[i] != 0; });
     }
     state->storedBricks = 0;
-    state->deviceMemory = imageBytes(v.pages);
-    state->hostMemory = v.pageTexels.capacity() * sizeof(float);
+    state->leaps = (v.fieldKind() & VolumeState::LEAPING) != 0 ? 1 : 0;
+    state->deviceMemory = imageBytes(v.pages) + imageBytes(v.leaps);
+    state->hostMemory = v.pageTexels.capacity() * sizeof(float) + v.distances.capacity();
     for (uint32_t i = 0; i < v.fieldCount; ++i) {
       state->storedBricks += v.fields[i].slots;
       state->deviceMemory += imageBytes(v.fields[i].image);

@@ -127,7 +127,7 @@ bool everythingUploaded(const WlkContext_T& c) {
     if (volume == nullptr) {
       continue;
     }
-    if (blank(volume->pages) ||
+    if (blank(volume->pages) || blank(volume->leaps) ||
         std::any_of(volume->tables.begin(), volume->tables.end(),
                     [&](const ScatteringTable& table) { return blank(table.image); }) ||
         std::any_of(volume->fields.begin(), volume->fields.end(),
@@ -173,11 +173,11 @@ WlkResult wlkVulkanGetRequirements(WlkVulkanRequirements* requirements) {
 }
 
 // Passes read an image and bricks differently.
-static void keepImage(WlkContext_T& c, FieldState& field,
+static void keepImage(WlkContext_T& c, VolumeState& volume, FieldState& field,
                       const std::optional<WlkVulkanImage>& image) {
-  const bool bricks = field.bricks();
+  const uint32_t kind = volume.fieldKind();
   field.external = image;
-  if (field.bricks() != bricks) {
+  if (volume.fieldKind() != kind) {
     c.invalidate();
   }
 }
@@ -193,7 +193,7 @@ WlkResult wlkVulkanSetVolumeImage(WlkContext context, WlkVolume volume, uint32_t
     }
     checkRange(WLK_STRUCT_VULKAN_IMAGE, "field", field, 0, state.fieldCount - 1);
     if (image == nullptr) {
-      keepImage(c, state.fields[field], std::nullopt);
+      keepImage(c, state, state.fields[field], std::nullopt);
       return WLK_SUCCESS;
     }
     const WlkVulkanImage i = checkedImage(image, "volume image", state.size[0], state.size[1]);
@@ -213,7 +213,7 @@ WlkResult wlkVulkanSetVolumeImage(WlkContext context, WlkVolume volume, uint32_t
            "a volume image stays in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL");
     }
     importView(c, i, VK_IMAGE_VIEW_TYPE_3D, VK_IMAGE_ASPECT_COLOR_BIT);
-    keepImage(c, state.fields[field], i);
+    keepImage(c, state, state.fields[field], i);
     return WLK_SUCCESS;
   });
 }
@@ -226,7 +226,7 @@ WlkResult wlkVulkanForgetImage(WlkContext context, VkImage image) {
       if (VolumeState* volume = c.volumes.at(i)) {
         for (FieldState& field : volume->fields) {
           if (field.external && field.external->image == image) {
-            keepImage(c, field, std::nullopt);
+            keepImage(c, *volume, field, std::nullopt);
           }
         }
       }

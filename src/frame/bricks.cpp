@@ -75,6 +75,68 @@ std::pmr::vector<uint32_t> reachedBricks(const BrickGrid& grid, std::span<const 
   return reached;
 }
 
+namespace {
+
+// Marks what the field's voxels reach with 0.
+void markReached(const BrickGrid& grid, std::span<const uint8_t> faces,
+                 std::span<uint8_t> distances) {
+  for (size_t index = 0; index < faces.size(); ++index) {
+    if (faces[index] == 0) {
+      continue;
+    }
+    const Edges brick = grid.brickOf(index);
+    for (uint32_t axes = 0; axes < 8; ++axes) {
+      if ((faces[index] >> axes & 1u) != 0 && hasBrickBefore(brick, axes)) {
+        distances[brickBefore(grid, index, axes)] = 0;
+      }
+    }
+  }
+}
+
+// One more than the least of the 13 neighbours that come before a brick in the order of `sign`.
+uint32_t fromNeighbours(const BrickGrid& grid, const Edges& brick, int sign,
+                        std::span<const uint8_t> distances) {
+  uint32_t least = 255;
+  const auto look = [&](int dx, int dy, int dz) {
+    const Edges at{brick[0] + static_cast<uint32_t>(sign * dx),
+                   brick[1] + static_cast<uint32_t>(sign * dy),
+                   brick[2] + static_cast<uint32_t>(sign * dz)};
+    if (at[0] < grid.count[0] && at[1] < grid.count[1] && at[2] < grid.count[2]) {
+      least = std::min<uint32_t>(least, distances[grid.at(at)]);
+    }
+  };
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      look(dx, dy, -1);
+    }
+  }
+  for (int dx = -1; dx <= 1; ++dx) {
+    look(dx, -1, 0);
+  }
+  look(-1, 0, 0);
+  return least + 1;
+}
+
+}  // namespace
+
+// Two sweeps over all neighbours give the chessboard distance exactly (Rosenfeld and Pfaltz 1968).
+void brickDistances(const BrickGrid& grid, std::span<const BrickFaces> fields,
+                    std::span<uint8_t> distances) {
+  std::fill(distances.begin(), distances.end(), uint8_t{255});
+  for (const BrickFaces& faces : fields) {
+    markReached(grid, faces, distances);
+  }
+  for (const int sign : {1, -1}) {
+    for (size_t i = 0; i < distances.size(); ++i) {
+      const size_t index = sign > 0 ? i : distances.size() - 1 - i;
+      if (distances[index] > 1) {
+        distances[index] = static_cast<uint8_t>(std::min<uint32_t>(
+            distances[index], fromNeighbours(grid, grid.brickOf(index), sign, distances)));
+      }
+    }
+  }
+}
+
 Edges atlasShape(uint64_t slots, uint32_t most) {
   most = std::min(most, MOST_SLOTS);
   Edges best{};

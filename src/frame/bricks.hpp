@@ -61,6 +61,11 @@ std::pmr::vector<uint32_t> reachedBricks(const BrickGrid& grid, std::span<const 
                                          std::span<const uint32_t> occupied,
                                          std::pmr::memory_resource* memory);
 
+// Per brick the distance, in bricks along the axis where it is longest and at most 255, to the
+// nearest one in which a sample of any field may be above 0. Fields without faces hold nothing.
+void brickDistances(const BrickGrid& grid, std::span<const BrickFaces> fields,
+                    std::span<uint8_t> distances);
+
 // Slots along the axes of an atlas with room for `slots` of them and at most `most` along each:
 // as little room as there is. All 0 if none fits.
 Edges atlasShape(uint64_t slots, uint32_t most);

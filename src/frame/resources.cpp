@@ -62,7 +62,7 @@ VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t vol
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, slots * (6 * volumes + 2)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, slots * (8 * volumes + 3)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, slots * (3 * volumes + 4)},
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, slots * (22 * volumes + 7)}};
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, slots * (23 * volumes + 7)}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.maxSets = sets;
   info.poolSizeCount = static_cast<uint32_t>(sizes.size());
@@ -311,11 +311,15 @@ vk::PipelineKey lightKey(const LightVariant& v, uint32_t fields) {
 }
 
 vk::PipelineKey eyeKey(const EyeVariant& v, uint32_t fields, const SliceQuality& quality) {
-  return ofFields({v.stored ? vk::Pass::EyeMarch : vk::Pass::EyeSlices,
-                   VK_FORMAT_UNDEFINED,
-                   {v.air, v.fog, v.light, 0, quality.forwardScattering, v.depth, v.allLight,
-                    quality.transport && v.light, quality.multipleSky, v.ambient}},
-                  fields);
+  vk::PipelineKey key =
+      ofFields({v.stored ? vk::Pass::EyeMarch : vk::Pass::EyeSlices,
+                VK_FORMAT_UNDEFINED,
+                {v.air, v.fog, v.light, 0, quality.forwardScattering, v.depth, v.allLight,
+                 quality.transport && v.light, quality.multipleSky, v.ambient}},
+               fields);
+  const bool leaps = (fields & VolumeState::LEAPING) != 0;
+  key.constants[12] = v.stored && leaps && !quality.noSkip ? 1 : 0;
+  return key;
 }
 
 vk::PipelineKey transportKey(vk::Pass pass, uint32_t fields) {

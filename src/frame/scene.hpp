@@ -26,7 +26,7 @@ constexpr int DEPTH_NODES = 32;  // of a scattering table, see tables/multiscatt
 // Poisson counts of scatterings, the paper's whole numbers, and the first order with its peak
 // blurred.
 constexpr uint32_t SCATTERING_FORMS = 3;
-constexpr uint32_t FIELD_KINDS = 8 << WLK_MAX_FIELDS;  // values of VolumeState::fieldKind
+constexpr uint32_t FIELD_KINDS = 16 << WLK_MAX_FIELDS;  // values of VolumeState::fieldKind
 
 struct MediumState {
   Medium medium;
@@ -75,7 +75,9 @@ struct PendingUpload {
 
 struct TransportMedia;
 
-constexpr uint32_t PAGES = WLK_MAX_FIELDS;  // PendingUpload::field of them
+// PendingUpload::field of what is no field.
+constexpr uint32_t PAGES = WLK_MAX_FIELDS;
+constexpr uint32_t LEAPS = WLK_MAX_FIELDS + 1;
 
 // Texels along a store's edges, and what it holds: 0 optical depth, else also what forward
 // scattering gives back, of the scattering tables form - 1.
@@ -115,7 +117,8 @@ struct VolumeAmbient {
 struct VolumeState {
   explicit VolumeState(std::pmr::memory_resource* memory)
       : faces{BrickFaces(memory), BrickFaces(memory), BrickFaces(memory), BrickFaces(memory)},
-        pageTexels(memory) {}
+        pageTexels(memory),
+        distances(memory) {}
   Edges size{};
   uint32_t fieldCount = 0;
   std::array<FieldState, WLK_MAX_FIELDS> fields;
@@ -130,15 +133,24 @@ struct VolumeState {
   // Where fields are kept as bricks: the slot of each, a channel per field (pageChannels).
   vk::Image pages;
   std::pmr::vector<float> pageTexels;
+  // How far each brick is from anything, where wlkPrepare found the volume empty enough.
+  vk::Image leaps;
+  BrickFaces distances;             // room for them
+  uint64_t uploads = 0;             // to any field
+  uint64_t leapsAt = ~uint64_t{0};  // the same when wlkPrepare looked last
 
+  static constexpr uint32_t LEAPING = 1u << 7;
   uint32_t pageChannels() const { return fieldCount == 1 ? 1 : 4; }
-  // How passes read the fields: their number, and from bit 3 on which are kept as bricks.
+  // How passes read the fields: their number, from bit 3 on which are kept as bricks, and in bit 7
+  // whether rays leap.
   uint32_t fieldKind() const {
     uint32_t kind = fieldCount;
+    bool known = true;
     for (uint32_t i = 0; i < fieldCount; ++i) {
       kind |= (fields[i].bricks() ? 1u : 0u) << (3 + i);
+      known = known && !fields[i].external;
     }
-    return kind;
+    return kind | (leaps && known ? LEAPING : 0u);
   }
 
   bool anyDensity() const {
@@ -155,7 +167,7 @@ struct VolumeState {
 // The key of a pass that reads fields of a kind (VolumeState::fieldKind).
 inline vk::PipelineKey ofFields(vk::PipelineKey key, uint32_t kind) {
   key.constants[3] = kind & 7u;
-  key.constants[11] = kind >> 3;
+  key.constants[11] = kind >> 3 & 15u;
   return key;
 }
 

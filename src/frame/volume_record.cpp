@@ -230,6 +230,9 @@ class VolumeRecorder {
     const vk::Image& pages = volume_.state->pages;
     c_.bindings.image(set, vk::BIND_PAGES, pages ? pages.view() : c_.in.dummy3d,
                       c_.pipelines.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    const vk::Image& leaps = volume_.state->leaps;
+    c_.bindings.image(set, vk::BIND_LEAPS, leaps ? leaps.view() : c_.in.dummy3d,
+                      c_.pipelines.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   }
 
   FrameCommands& c_;

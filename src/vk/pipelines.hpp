@@ -66,7 +66,8 @@ enum VolumeBinding : uint32_t {
   BIND_VIEW_SOURCE = 15,
   BIND_PAGES = 16,
   BIND_VIEW_AMBIENT = 17,
-  VOLUME_BINDING_COUNT = 18
+  BIND_LEAPS = 18,
+  VOLUME_BINDING_COUNT = 19
 };
 enum CompositeBinding : uint32_t {
   BIND_COMPOSITE_FRAME = 0,

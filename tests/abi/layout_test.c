@@ -180,7 +180,7 @@ AT(WlkVolumeBricks, dataSize, 56);
 SIZE(WlkVolumeState, 72);
 HEAD(WlkVolumeState);
 AT(WlkVolumeState, bricks, 16);
-AT(WlkVolumeState, reserved0, 28);
+AT(WlkVolumeState, leaps, 28);
 AT(WlkVolumeState, occupiedBricks, 32);
 AT(WlkVolumeState, storedBricks, 40);
 AT(WlkVolumeState, deviceMemory, 48);

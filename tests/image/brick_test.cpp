@@ -212,4 +212,65 @@ TEST(Bricks, OfALargeSparseCloudTakeLittleMoreThanTheOccupied) {
   EXPECT_LE(scene.stats().deviceMemory, 200u << 20);
 }
 
+// Rays that leap sample where the others sample something: nothing but rounding at faces of bricks
+// may differ.
+TEST(Leaps, LeaveThePictureAsItIs) {
+  for (const uint32_t level : {WLK_QUALITY_LOW, WLK_QUALITY_HIGH}) {
+    for (const bool bricks : {false, true}) {
+      BrickScene scene(options(level), 2);
+      scene.setFog(1e-4f, 400);
+      const auto show = [&](double shift) {
+        for (uint32_t field = 0; field < 2; ++field) {
+          const std::vector<float> values = balls(shift - 5 * field);
+          bricks ? scene.bricks(field, values) : scene.voxels(field, values);
+        }
+      };
+      show(0);
+      for (const auto& eye : {std::array{0.0, 900.0, 0.0}, std::array{100.0, 900.0, -2500.0}}) {
+        scene.setCamera(eye, 10, 5);
+        scene.setQuality(level, WLK_QUALITY_NO_SKIP);
+        const Image all = scene.render();
+        scene.setQuality(level);
+        const Image leaping = scene.render();
+        EXPECT_EQ(scene.state().leaps, 1u);
+        EXPECT_LE(largestDifference(leaping, all), 0.1 * BOUND) << "level " << level;
+        std::printf("level %u, bricks %d: leaps change %.1e of the mean\n", level, bricks,
+                    largestDifference(leaping, all));
+      }
+      // Other contents: nothing is leapt over because of the old.
+      show(17);
+      const Image moved = scene.render();
+      scene.setQuality(level, WLK_QUALITY_NO_SKIP);
+      EXPECT_LE(largestDifference(moved, scene.render()), 0.1 * BOUND);
+      EXPECT_TRUE(scene.messages().empty()) << scene.messages().front();
+    }
+  }
+}
+
+TEST(Leaps, AreLeftOutWhereLittleIsEmpty) {
+  BrickScene scene(options(WLK_QUALITY_LOW), 1);
+  std::vector<float> values(balls(0).size(), 0.5f);
+  scene.voxels(0, values);
+  scene.render();
+  EXPECT_EQ(scene.state().leaps, 0u);
+  // Between the two thresholds it stays as it is.
+  const auto half = static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::fill(values.begin(), values.begin() + half, 0.0f);
+  scene.voxels(0, values);
+  scene.render();
+  EXPECT_EQ(scene.state().leaps, 0u);
+  scene.voxels(0, balls(0));
+  scene.render();
+  EXPECT_EQ(scene.state().leaps, 1u);
+  scene.voxels(0, values);
+  scene.render();
+  EXPECT_EQ(scene.state().leaps, 1u);
+  std::fill(values.begin(), values.end(), 0.5f);
+  scene.voxels(0, values);
+  const Image full = scene.render();
+  EXPECT_EQ(scene.state().leaps, 0u);
+  EXPECT_EQ(full.badValues(), 0u);
+  EXPECT_TRUE(scene.messages().empty()) << scene.messages().front();
+}
+
 }  // namespace

@@ -68,4 +68,45 @@ TEST(Bricks, FillTheirAtlasAndPagesAreExact) {
   EXPECT_EQ(atlasShape(1000, 10), (Edges{10, 10, 10}));
 }
 
+TEST(Bricks, KnowHowFarTheyAreFromTheNearestThatIsReached) {
+  const BrickGrid grid = brickGrid({100, 37, 70});
+  std::mt19937 random(7);
+  for (int round = 0; round < 20; ++round) {
+    std::vector<BrickFaces> fields(2, BrickFaces(grid.total()));
+    std::vector<uint32_t> occupied;
+    for (int i = 0; i < 3 * (round % 3); ++i) {
+      const Edges v{static_cast<uint32_t>(random() % 100), static_cast<uint32_t>(random() % 37),
+                    static_cast<uint32_t>(random() % 70)};
+      const size_t index = grid.at({v[0] / 8, v[1] / 8, v[2] / 8});
+      fields[static_cast<size_t>(i % 2)][index] |= facesOf(v);
+    }
+    std::vector<Edges> reached;
+    for (const BrickFaces& faces : fields) {
+      std::vector<uint32_t> list;
+      for (uint32_t i = 0; i < faces.size(); ++i) {
+        if (faces[i] != 0) {
+          list.push_back(i);
+        }
+      }
+      for (const uint32_t i : reachedBricks(grid, faces, list, std::pmr::get_default_resource())) {
+        reached.push_back(grid.brickOf(i));
+      }
+    }
+    std::vector<uint8_t> distances(grid.total());
+    brickDistances(grid, fields, distances);
+    for (size_t i = 0; i < distances.size(); ++i) {
+      const Edges b = grid.brickOf(i);
+      int expected = 255;
+      for (const Edges& r : reached) {
+        int apart = 0;
+        for (size_t axis = 0; axis < 3; ++axis) {
+          apart = std::max(apart, std::abs(static_cast<int>(b[axis]) - static_cast<int>(r[axis])));
+        }
+        expected = std::min(expected, apart);
+      }
+      ASSERT_EQ(distances[i], expected) << "round " << round << " brick " << i;
+    }
+  }
+}
+
 }  // namespace
