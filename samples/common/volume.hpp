@@ -91,8 +91,8 @@ struct VdbSource {
   VdbInfo info;
 };
 
-/// A field of each source, without making anything dense but active tiles. Grids must have the
-/// same transform and a background of 0. Reads each file once.
+/// A field of each source, of an OpenVDB or NanoVDB file, without making anything dense but active
+/// tiles. Grids must have the same transform and a background of 0. Reads each file once.
 BrickVolume loadVdbBricks(const std::vector<VdbSource>& sources);
 
 struct CumulusInfo {

@@ -5,10 +5,10 @@
 #include <openvdb/tools/Dense.h>
 
 #include <fstream>
-#include <map>
 #include <string>
 
 #include "common/error.hpp"
+#include "common/sparse_grid.hpp"
 #include "common/volume.hpp"
 
 namespace host {
@@ -82,35 +82,55 @@ Affine placeBox(const openvdb::FloatGrid& grid, const openvdb::Coord& first,
                          edge(0.0, 0.0, edges.z()));
 }
 
-constexpr int BRICK = 8;  // edge of OpenVDB's leaves as well
-static_assert(openvdb::FloatTree::LeafNodeType::DIM == BRICK);
+static_assert(openvdb::FloatTree::LeafNodeType::DIM == LEAF_EDGE);
 
-// Leaves have z fastest, bricks x.
-BrickField bricksOf(const openvdb::FloatGrid& grid, const openvdb::Coord& first) {
-  BrickField field;
-  field.coordinates.reserve(3 * size_t{grid.tree().leafCount()});
-  field.values.reserve(size_t{BRICK * BRICK * BRICK} * grid.tree().leafCount());
-  for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
+// Leaves have z fastest there, x here.
+SparseGrid sparseOf(const std::string& file, openvdb::FloatGrid& source) {
+  const std::string name = source.getName();
+  const openvdb::CoordBBox box = activeBox(file, name, source);
+  SparseGrid grid;
+  for (size_t i = 0; i < 3; ++i) {
+    grid.low[i] = box.min()[i];
+    grid.high[i] = box.max()[i];
+  }
+  const auto world = [&](double x, double y, double z) {
+    const openvdb::Vec3d p = source.transform().indexToWorld(openvdb::Vec3d(x, y, z));
+    return Vec3{p.x(), p.y(), p.z()};
+  };
+  const Vec3 origin = world(0, 0, 0);
+  grid.worldFromIndex = affineFromEdges(origin, world(1, 0, 0) - origin, world(0, 1, 0) - origin,
+                                        world(0, 0, 1) - origin);
+  grid.background = source.background();
+  // Tiles are constant over many leaves: each becomes the leaves that it covers.
+  if (source.activeVoxelCount() > MAX_VOXELS) {
+    throw InputError(file, "grid '" + name + "'",
+                     "expected at most " + std::to_string(MAX_VOXELS) + " active voxels");
+  }
+  source.tree().voxelizeActiveTiles();
+  constexpr openvdb::Index EDGE = LEAF_EDGE;
+  for (auto leaf = source.tree().cbeginLeaf(); leaf; ++leaf) {
     if (leaf->onVoxelCount() == 0) {
       continue;
     }
-    const openvdb::Coord brick = leaf->origin() - first;
-    for (size_t axis = 0; axis < 3; ++axis) {
-      field.coordinates.push_back(static_cast<uint32_t>(brick[axis] / BRICK));
-    }
-    for (openvdb::Index n = 0; n < BRICK * BRICK * BRICK; ++n) {
-      const openvdb::Index x = n % BRICK;
-      const openvdb::Index y = n / BRICK % BRICK;
-      const openvdb::Index z = n / (BRICK * BRICK);
-      field.values.push_back(leaf->getValue((x * BRICK + y) * BRICK + z));
+    const openvdb::Coord& first = leaf->origin();
+    grid.leaves.push_back({first.x(), first.y(), first.z()});
+    for (openvdb::Index n = 0; n < EDGE * EDGE * EDGE; ++n) {
+      const openvdb::Index x = n % EDGE;
+      const openvdb::Index y = n / EDGE % EDGE;
+      const openvdb::Index z = n / (EDGE * EDGE);
+      grid.values.push_back(leaf->getValue((x * EDGE + y) * EDGE + z));
     }
   }
-  return field;
+  return grid;
 }
 
 }  // namespace
 
 Grid loadVdb(const std::filesystem::path& path, const VdbInfo& info) {
+  if (isNanoVdb(path)) {
+    throw InputError(path.string(), "",
+                     "expected an OpenVDB file: one of NanoVDB gives bricks only");
+  }
   const std::string file = path.string();
   const openvdb::FloatGrid::Ptr source = findGrid(file, checkedGrids(path), info.grid);
   const openvdb::CoordBBox box = activeBox(file, info.grid, *source);
@@ -131,66 +151,14 @@ Grid loadVdb(const std::filesystem::path& path, const VdbInfo& info) {
   return grid;
 }
 
-BrickVolume loadVdbBricks(const std::vector<VdbSource>& sources) {
-  std::map<std::filesystem::path, openvdb::GridPtrVecPtr> files;
-  std::vector<openvdb::FloatGrid::Ptr> grids;
-  openvdb::CoordBBox active;
-  for (const VdbSource& source : sources) {
-    const std::string file = source.file.string();
-    if (!files.contains(source.file)) {
-      files[source.file] = checkedGrids(source.file);
-    }
-    const std::string& name = source.info.grid;
-    const openvdb::FloatGrid::Ptr grid = findGrid(file, files[source.file], name);
-    active.expand(activeBox(file, name, *grid));
-    if (grid->background() != 0.0f) {
-      throw InputError(file, "grid '" + name + "'", "expected a background of 0");
-    }
-    if (source.info.up != sources[0].info.up ||
-        (!grids.empty() && grid->transform() != grids[0]->transform())) {
-      throw InputError(file, "grid '" + name + "'", "expected the transform of field 0");
-    }
-    grids.push_back(grid);
+std::vector<SparseGrid> readOpenVdb(const std::filesystem::path& path,
+                                    const std::vector<std::string>& names) {
+  const openvdb::GridPtrVecPtr grids = checkedGrids(path);
+  std::vector<SparseGrid> result;
+  for (const std::string& name : names) {
+    result.push_back(sparseOf(path.string(), *findGrid(path.string(), grids, name)));
   }
-  BrickVolume volume;
-  openvdb::Coord first;
-  openvdb::Vec3d activeEdges;
-  Vec3 low;
-  uint64_t bricks = 1;
-  const std::array<double*, 3> lows{&low.x, &low.y, &low.z};
-  for (size_t i = 0; i < 3; ++i) {
-    const auto down = [](int64_t index) {
-      return index >= 0 ? index / BRICK : (index - BRICK + 1) / BRICK;
-    };
-    const int64_t begin = down(active.min()[i]);
-    const int64_t end = down(active.max()[i]) + 1;
-    const auto count = static_cast<uint64_t>(end - begin);
-    if (count > MAX_BRICKS || bricks * count > MAX_BRICKS) {
-      throw InputError(sources[0].file.string(), "size",
-                       "expected at most " + std::to_string(MAX_BRICKS) +
-                           " bricks of 8^3 voxels around the active voxels");
-    }
-    bricks *= count;
-    first[i] = static_cast<int>(begin * BRICK);
-    volume.size[i] = static_cast<uint32_t>(count * BRICK);
-    activeEdges[static_cast<int>(i)] =
-        static_cast<double>(int64_t{active.max()[i]} - active.min()[i] + 1);
-    *lows[i] = (first[i] - active.min()[i]) / activeEdges[static_cast<int>(i)];
-  }
-  volume.worldFromActive = placeBox(*grids[0], active.min(), activeEdges, sources[0].info.up);
-  volume.activeFromVolume = affineFromEdges(low, {volume.size[0] / activeEdges.x(), 0.0, 0.0},
-                                            {0.0, volume.size[1] / activeEdges.y(), 0.0},
-                                            {0.0, 0.0, volume.size[2] / activeEdges.z()});
-  for (const openvdb::FloatGrid::Ptr& grid : grids) {
-    // Tiles are constant over many leaves: each becomes the bricks that it covers.
-    if (grid->activeVoxelCount() > MAX_VOXELS) {
-      throw InputError(sources[0].file.string(), "grid '" + grid->getName() + "'",
-                       "expected at most " + std::to_string(MAX_VOXELS) + " active voxels");
-    }
-    grid->tree().voxelizeActiveTiles();
-    volume.fields.push_back(bricksOf(*grid, first));
-  }
-  return volume;
+  return result;
 }
 
 }  // namespace host

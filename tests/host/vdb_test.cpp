@@ -4,6 +4,11 @@
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
 
+#include <cmath>
+#include <cstring>
+#include <functional>
+
+#include "common/error.hpp"
 #include "common/image.hpp"
 #include "common/volume.hpp"
 #include "expect_input_error.hpp"
@@ -214,6 +219,97 @@ TEST(HostVdb, RendersAsTheSameVoxelsFromAnotherFile) {
   // Files have half floats, of radiances about 0.1.
   EXPECT_LE(apart(host::readExr(folder.file("vdb.exr")), truth), 2.0f * 0.1f * 0x1p-11f);
   EXPECT_GT(apart(host::readExr(folder.file("none.exr")), truth), 0.01f);
+}
+
+template <typename T>
+void put(std::string& bytes, size_t at, T value) {
+  std::memcpy(bytes.data() + at, &value, sizeof value);
+}
+
+// A file of one grid: leaf (-8, 0, 16) with 0.5 at its voxel (1, 2, 3), and below lower node
+// (-128, 0, 0) a constant leaf of 0.25 at (-128, 8, 0). Offsets as NanoVDB 32.6 has them.
+std::string nanoFile() {
+  constexpr size_t GRID = 16 + 176 + 5;
+  constexpr size_t TREE = GRID + 672;
+  constexpr size_t ROOT = TREE + 64;
+  constexpr size_t LOWER = ROOT + 64;
+  constexpr size_t LEAF = LOWER + 33856;
+  std::string bytes(LEAF + 2144, '\0');
+  bytes.replace(0, 8, "NanoVDB2");
+  put(bytes, 8, uint32_t{32u << 21 | 6u << 10});
+  put(bytes, 12, uint16_t{1});
+  put(bytes, 16, uint64_t{bytes.size() - GRID});
+  put(bytes, 16 + 136, uint32_t{5});
+  bytes.replace(16 + 176, 4, "dens");
+  bytes.replace(GRID, 8, "NanoVDB1");
+  put(bytes, GRID + 636, uint32_t{1});
+  for (size_t i = 0; i < 3; ++i) {
+    put(bytes, GRID + 296 + 88 + 8 * (4 * i), 2.0);
+  }
+  put(bytes, GRID + 296 + 88 + 8 * 18, 100.0);
+  put(bytes, TREE, uint64_t{LEAF - TREE});
+  put(bytes, TREE + 8, uint64_t{LOWER - TREE});
+  put(bytes, TREE + 16, uint64_t{LOWER - TREE});
+  put(bytes, TREE + 24, uint64_t{ROOT - TREE});
+  put(bytes, TREE + 32, uint32_t{1});
+  put(bytes, TREE + 36, uint32_t{1});
+  const std::array<int32_t, 6> box{-128, 2, 0, -7, 15, 19};
+  for (size_t i = 0; i < box.size(); ++i) {
+    put(bytes, ROOT + 4 * i, box[i]);
+    put(bytes, LOWER + 4 * i, box[i]);
+  }
+  constexpr size_t TILE = 16;  // (0, 1, 0) of 16^3
+  put(bytes, LOWER + 32 + TILE / 8, uint8_t{1 << TILE % 8});
+  put(bytes, LOWER + 1088 + 8 * TILE, 0.25f);
+  put(bytes, LEAF, int32_t{-7});
+  put(bytes, LEAF + 4, int32_t{2});
+  put(bytes, LEAF + 8, int32_t{19});
+  put(bytes, LEAF + 96 + 4 * (1 * 64 + 2 * 8 + 3), 0.5f);
+  return bytes;
+}
+
+TEST(HostVdb, LoadsTheLeavesAndSmallTilesOfNanoVdb) {
+  const host_test::TempFolder folder;
+  const std::string file = folder.write("a.nvdb", nanoFile());
+  const host::BrickVolume volume = host::loadVdbBricks({{file, {"dens", host::UpAxis::Y}}});
+  ASSERT_EQ(volume.size, (std::array<uint32_t, 3>{128, 16, 24}));
+  const host::BrickField& field = volume.fields[0];
+  EXPECT_EQ(field.coordinates, (std::vector<uint32_t>{15, 0, 2, 0, 1, 0}));
+  ASSERT_EQ(field.values.size(), 1024u);
+  for (size_t n = 0; n < 512; ++n) {
+    EXPECT_EQ(field.values[n], n == 3 * 64 + 2 * 8 + 1 ? 0.5f : 0.0f);
+    EXPECT_EQ(field.values[512 + n], 0.25f);
+  }
+  // Voxel (-128, 2, 0) is the first of the active ones.
+  const host::Vec3 p = host::transformPoint(volume.worldFromActive, {});
+  EXPECT_EQ(p.x, 100.0 + 2.0 * -128.5);
+  EXPECT_EQ(p.y, 2.0 * 1.5);
+  EXPECT_EQ(p.z, 2.0 * -0.5);
+}
+
+TEST(HostVdb, RefusesNanoVdbThatItCannotUse) {
+  const host_test::TempFolder folder;
+  const auto refuses = [&](const char* what, const std::function<void(std::string&)>& spoil) {
+    std::string bytes = nanoFile();
+    spoil(bytes);
+    const std::string file = folder.write("bad.nvdb", bytes);
+    expectInputError(what, [&] { host::loadVdbBricks({{file, {"dens", host::UpAxis::Y}}}); });
+  };
+  constexpr size_t GRID = 16 + 176 + 5;
+  refuses("version 32", [](std::string& b) { put(b, 8, uint32_t{29u << 21}); });
+  refuses("without compression", [](std::string& b) { put(b, 14, uint16_t{1}); });
+  refuses("named 'dens'; the file has: gens", [](std::string& b) { b[16 + 176] = 'g'; });
+  refuses("grid of floats", [](std::string& b) { put(b, GRID + 636, uint32_t{2}); });
+  refuses("that is whole", [](std::string& b) { b.pop_back(); });
+  refuses("that is whole", [](std::string& b) { put(b, 12, uint16_t{9}); });
+  refuses("that is whole", [](std::string& b) { put(b, GRID + 672 + 32, ~uint32_t{0}); });
+  refuses("that is whole", [](std::string& b) { put(b, GRID + 672, ~uint64_t{0} - 700); });
+  refuses("background of 0", [](std::string& b) { put(b, GRID + 672 + 64 + 28, 1.0f); });
+  refuses("inside the box", [](std::string& b) { put(b, GRID + 672 + 64 + 64 + 33856, 64); });
+  for (const size_t size : {0u, 8u, 100u, 700u, 20000u}) {
+    const std::string file = folder.write("cut.nvdb", nanoFile().substr(0, size));
+    EXPECT_THROW(host::loadVdbBricks({{file, {"dens", host::UpAxis::Y}}}), host::InputError);
+  }
 }
 
 }  // namespace
