@@ -21,6 +21,8 @@ layout(constant_id = 7) const bool TRANSPORT = false;
 layout(constant_id = 8) const bool MULTIPLE_ENABLED = true;
 // Light of sky and ground, from a grid of its own.
 layout(constant_id = 9) const bool AMBIENT = false;
+// All colours scatter alike: one is computed.
+layout(constant_id = 10) const bool GREY = false;
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
 layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volume; };
@@ -74,7 +76,18 @@ struct End {
 
 // Keeps clear of subnormal numbers, which are slow.
 vec3 cutExp(vec3 x) {
+  if (GREY) {
+    return vec3(exp(max(x.x, -EXP_CUT)));
+  }
   return exp(max(x, vec3(-EXP_CUT)));
+}
+
+vec3 meanLight(vec3 near, vec3 far, vec3 d) {
+  if (GREY) {
+    return vec3(meanExp(near.x, far.x, d.x));
+  }
+  return vec3(meanExp(near.x, far.x, d.x), meanExp(near.y, far.y, d.y),
+              meanExp(near.z, far.z, d.z));
 }
 
 End endAt(March m, float s, float eyeDepth) {
@@ -165,7 +178,10 @@ void main() {
       vec4 extinction = extinctionInside(m.box + middle * m.boxStep);
       float beta = extinction.x + extinction.y + extinction.z + extinction.w;
       eyeDepth += beta * stretch;
-      float passed = exp(-min(eyeDepth * keep, EXP_CUT));
+      float passed = through;
+      if (AIR_SEEN || TRANSPORT || AMBIENT) {
+        passed = exp(-min(eyeDepth * keep, EXP_CUT));
+      }
       AirAt air = airAt(nodes, nearest + middle);
       if (LIGHT_ENABLED) {
         End far = endAt(m, next, eyeDepth);
@@ -173,9 +189,8 @@ void main() {
         for (int i = 0; i < int(FIELD_COUNT); ++i) {
           vec3 farEnd = cutExp(far.field[i]);
           vec3 d = end.field[i] - far.field[i];
-          vec3 light = vec3(meanExp(ends[i].x, farEnd.x, d.x), meanExp(ends[i].y, farEnd.y, d.y),
-                            meanExp(ends[i].z, farEnd.z, d.z));
-          source += volume.albedo[i].xyz * light * (extinction[i] * stretch);
+          source += volume.albedo[i].xyz * meanLight(ends[i], farEnd, d) *
+                    (extinction[i] * stretch);
           ends[i] = farEnd;
         }
         if (TRANSPORT) {
@@ -194,7 +209,7 @@ void main() {
       s = next;
       first += 1.0f;
     } while (s < last && eyeDepth * keep < RAY_ENDS);
-    state = vec4(sum, through);
+    state = vec4(sum, exp(-min(eyeDepth * keep, EXP_CUT)));
   }
 
   if ((slice.flags & SLICE_FIRST_VOLUME) == 0u) {

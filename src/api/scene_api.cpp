@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Volumes: boxes of density fields.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -9,6 +10,17 @@
 namespace {
 
 using namespace welkin;
+
+// Whether all colours scatter alike: equal curves make equal tables.
+bool scattersGrey(const VolumeState& volume) {
+  return std::all_of(volume.fields.begin(), volume.fields.begin() + volume.fieldCount,
+                     [](const FieldState& field) {
+                       const auto albedo = field.medium.scaledAlbedo();
+                       const auto& value = field.medium.particle->curve.value;
+                       return albedo[0] == albedo[1] && albedo[1] == albedo[2] &&
+                              value[0] == value[1] && value[1] == value[2];
+                     });
+}
 
 glm::dmat4x3 transformOf(const double* m) {
   return {m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10], m[3], m[7], m[11]};
@@ -76,6 +88,7 @@ WlkResult wlkCreateVolume(WlkContext context, const WlkVolumeInfo* info, WlkVolu
       state.fields[i].medium = used.medium;
       state.fields[i].extinctionScale = fields[i].extinctionScale;
     }
+    state.grey = scattersGrey(state);
     c.invalidate();
     volume->id = id;
     return WLK_SUCCESS;

@@ -317,6 +317,7 @@ vk::PipelineKey eyeKey(const EyeVariant& v, uint32_t fields, const SliceQuality&
                 {v.air, v.fog, v.light, 0, quality.forwardScattering, v.depth, v.allLight,
                  quality.transport && v.light, quality.multipleSky, v.ambient}},
                fields);
+  key.constants[10] = v.stored && (fields & VolumeState::GREY) != 0 ? 1 : 0;
   const bool leaps = (fields & VolumeState::LEAPING) != 0;
   key.constants[12] = v.stored && leaps && !quality.noSkip ? 1 : 0;
   return key;

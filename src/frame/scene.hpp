@@ -26,7 +26,7 @@ constexpr int DEPTH_NODES = 32;  // of a scattering table, see tables/multiscatt
 // Poisson counts of scatterings, the paper's whole numbers, and the first order with its peak
 // blurred.
 constexpr uint32_t SCATTERING_FORMS = 3;
-constexpr uint32_t FIELD_KINDS = 16 << WLK_MAX_FIELDS;  // values of VolumeState::fieldKind
+constexpr uint32_t FIELD_KINDS = 32 << WLK_MAX_FIELDS;  // values of VolumeState::fieldKind
 
 struct MediumState {
   Medium medium;
@@ -141,10 +141,12 @@ struct VolumeState {
 
   static constexpr uint32_t LEAPING = 1u << 7;
   uint32_t pageChannels() const { return fieldCount == 1 ? 1 : 4; }
-  // How passes read the fields: their number, from bit 3 on which are kept as bricks, and in bit 7
-  // whether rays leap.
+  static constexpr uint32_t GREY = 1u << 8;
+  bool grey = false;  // all colours scatter alike
+  // How passes read the fields: their number, from bit 3 on which are kept as bricks, in bit 7
+  // whether rays leap and in bit 8 `grey`.
   uint32_t fieldKind() const {
-    uint32_t kind = fieldCount;
+    uint32_t kind = fieldCount | (grey ? GREY : 0u);
     bool known = true;
     for (uint32_t i = 0; i < fieldCount; ++i) {
       kind |= (fields[i].bricks() ? 1u : 0u) << (3 + i);

@@ -16,8 +16,10 @@ glm::vec3 vec(const float (&v)[3]) {
   return {v[0], v[1], v[2]};
 }
 
-// Of the march through all slabs, in slabs.
-constexpr double MARCH_STEP = 0.75;
+// Of the march through all slabs, in slabs. On the noise cloud of welkin_volume_cost, 128 slabs,
+// steps of 1, 0.75, 0.5 and 0.25 have errors of 0.13, 0.11, 0.07 and 0.05 % for 50, 65, 75 and 127
+// ms of CPU: the density's kinks are what is missed, and light at fewer slabs is the cheaper half.
+constexpr double MARCH_STEP = 0.5;
 
 // Of the moments' top: where pixels begin to gather their own light.
 constexpr double SPACE = 1.5;

@@ -9,7 +9,6 @@
 namespace bench {
 namespace {
 
-constexpr uint32_t LIGHT_PLANES = 65;  // of the library's light buffer, batches of 64 slabs
 constexpr uint32_t GROUP = 8;
 
 }  // namespace
@@ -17,13 +16,13 @@ constexpr uint32_t GROUP = 8;
 BareLoop::BareLoop(Gpu& gpu, const GpuImage& density, const GpuImage& target, const Vec3& toLight,
                    uint32_t slices, uint32_t lightSize)
     : gpu_(gpu),
-      light_(gpu.makeImage(VK_FORMAT_R32G32_SFLOAT, {lightSize, lightSize, LIGHT_PLANES})),
+      light_(gpu.makeImage(VK_FORMAT_R32_SFLOAT, {lightSize, lightSize, slices + 1})),
       set_(gpu,
            slicerScene(cloudSlabs(toLight * -1.0, toLight, slices, lightSize), toLight,
                        target.extent.width),
            {GpuImage{}, density, GpuImage{}, GpuImage{}, light_, target}),
       size_(target.extent.width) {
-  const std::vector<float> values(size_t{2} * lightSize * lightSize * LIGHT_PLANES, 0.5f);
+  const std::vector<float> values(size_t{lightSize} * lightSize * (slices + 1), 0.5f);
   gpu.uploadBytes(light_, std::as_bytes(std::span(values)));
   const VkDevice device = gpu.handle();
   VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};

@@ -107,8 +107,10 @@ int run(const Options& options) {
   VolumeResults results;
   if (options.from.empty()) {
     results.studies = studyVolumes(options.volume, report["device"]);
-    results.scalings = measureScaling(options.volume);
-    results.skips = measureSkips(options.volume);
+    if (options.volume.only.empty()) {
+      results.scalings = measureScaling(options.volume);
+      results.skips = measureSkips(options.volume);
+    }
   } else {
     std::ifstream file(options.from);
     report = Ordered::parse(file);

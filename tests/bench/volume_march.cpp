@@ -14,8 +14,9 @@
 namespace bench {
 namespace {
 
-constexpr uint32_t BATCH = 64;  // slabs whose light is kept, as by the library
-constexpr size_t PADDING = 1;   // values behind the last one, which pairs read
+constexpr double MARCH_STEP = 0.75;  // in slabs, at most; whole steps per slab
+constexpr uint32_t BATCH = 64;       // slabs whose light is kept
+constexpr size_t PADDING = 1;        // values behind the last one, which pairs read
 
 template <typename Row>
 void eachRow(uint32_t rows, uint32_t threads, const Row& row) {
@@ -262,7 +263,7 @@ void CloudMarch::lightRow(uint32_t row, uint32_t firstSlab) {
 void CloudMarch::eyeRow(uint32_t row, uint32_t firstSlab, bool first) {
   const Vec3 corner = cloudCorner();
   const double perVoxel = CLOUD_VOXELS / CLOUD_EDGE;
-  const double longest = LONGEST_STEP * slabs_.thickness;
+  const double longest = MARCH_STEP * slabs_.thickness;
   for (uint32_t column = 0; column < size_; column += LANES) {
     std::array<std::array<float, LANES>, 8> lane{};  // directions of voxel and light; step; planes
     for (uint32_t i = 0; i < LANES; ++i) {

@@ -236,31 +236,18 @@ CloudSlabs cloudSlabs(const Vec3& axis, const Vec3& toLight, uint32_t count, uin
 }
 
 uint64_t eyeSamples(const Vec3& toLight, uint32_t size, uint32_t slices) {
-  const CloudSlabs slabs = cloudSlabs(toLight * -1.0, toLight, slices, 64);
-  const double longest = LONGEST_STEP * slabs.thickness;
+  const double step = EYE_STEP * cloudSlabs(toLight * -1.0, toLight, slices, 64).thickness;
+  const Vec3 middle = cloudCorner() + Vec3{0.5, 0.5, 0.5} * CLOUD_EDGE;
   std::vector<uint64_t> rows(size, 0);
   spread(size, [&](uint32_t y) {
     for (uint32_t x = 0; x < size; ++x) {
       const Vec3 d = cloudRay(x + 0.5, y + 0.5, size);
       const auto [begin, end] = crossing(d);
-      const double rate = dot(d, slabs.axis) / slabs.thickness;
-      if (end <= begin) {
-        continue;
+      if (begin < end) {
+        const double nearest = dot(middle, d);
+        rows[y] += static_cast<uint64_t>(std::ceil((end - nearest) / step) -
+                                         std::floor((begin - nearest) / step));
       }
-      // Whole slabs, and the parts of the first and the last one.
-      double a = begin * rate + slabs.offset;
-      double b = end * rate + slabs.offset;
-      if (a > b) {
-        std::swap(a, b);
-      }
-      const auto steps = [&](double planes) {
-        return static_cast<uint64_t>(std::ceil(planes / std::abs(rate) / longest - 1e-9));
-      };
-      const double first = std::ceil(a);
-      const double last = std::floor(b);
-      rows[y] += last < first ? steps(b - a)
-                              : steps(first - a) + steps(b - last) +
-                                    static_cast<uint64_t>(last - first) * steps(1);
     }
   });
   uint64_t sum = 0;

@@ -71,9 +71,10 @@ struct CloudSlabs {
 };
 CloudSlabs cloudSlabs(const Vec3& axis, const Vec3& toLight, uint32_t count, uint32_t lightSize);
 
-// Longest step of the library's eye pass in slabs, which fixes how many samples a ray has.
-constexpr double LONGEST_STEP = 0.75;
-// Samples in the box of all rays, when slabs lie across the light.
+// Step of the library's eye pass in slabs, which fixes how many samples a ray has.
+constexpr double EYE_STEP = 0.5;
+// Samples in the box of all rays, when slabs lie across the light: stretches between multiples of
+// the step from the box's middle.
 uint64_t eyeSamples(const Vec3& toLight, uint32_t size, uint32_t slices);
 
 }  // namespace bench

@@ -59,8 +59,7 @@ SlicerScene slicerScene(const CloudSlabs& slabs, const Vec3& toLight, uint32_t s
              row(slabs.v * edge, dot(corner, slabs.v) + slabs.vAt)};
   s.axis = row(slabs.axis, slabs.thickness);
   s.optics = {static_cast<float>(CLOUD_EXTINCTION), static_cast<float>(slabs.lightPath),
-              static_cast<float>(CLOUD_G),
-              static_cast<float>(1 / (LONGEST_STEP * slabs.thickness))};
+              static_cast<float>(CLOUD_G), static_cast<float>(1 / (EYE_STEP * slabs.thickness))};
   s.right = row({CLOUD_TANGENT, 0, 0}, 0);
   s.up = row({0, CLOUD_TANGENT, 0}, 0);
   s.forward = row({0, 0, -1}, 0);
@@ -76,16 +75,11 @@ VolumeSet::VolumeSet(Gpu& gpu, const SlicerScene& scene,
     : gpu_(gpu), scene_(gpu.makeBuffer(sizeof scene, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)) {
   std::memcpy(scene_.data, &scene, sizeof scene);
   const VkDevice device = gpu.handle();
-  for (size_t i = 0; i < samplers_.size(); ++i) {
-    VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-    info.magFilter = VK_FILTER_LINEAR;
-    info.minFilter = VK_FILTER_LINEAR;
-    info.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    info.addressModeW =
-        i == 0 ? VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE : VK_SAMPLER_ADDRESS_MODE_REPEAT;
-    check(vkCreateSampler(device, &info, nullptr, &samplers_[i]), "vkCreateSampler");
-  }
+  VkSamplerCreateInfo filter{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
+  filter.magFilter = filter.minFilter = VK_FILTER_LINEAR;
+  filter.addressModeU = filter.addressModeV = filter.addressModeW =
+      VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+  check(vkCreateSampler(device, &filter, nullptr, &sampler_), "vkCreateSampler");
   std::array<VkDescriptorSetLayoutBinding, BINDINGS> bindings{};
   std::array<VkDescriptorPoolSize, BINDINGS> sizes{};
   std::array<VkDescriptorImageInfo, BINDINGS> infos{};
@@ -100,7 +94,7 @@ VolumeSet::VolumeSet(Gpu& gpu, const SlicerScene& scene,
     sizes[i] = {typeOf(i), 1};
     // The driver reads every binding of a set, also those that no shader of a pipeline has.
     const VkImageView view = images[i].view != VK_NULL_HANDLE ? images[i].view : spare;
-    infos[i] = {samplers_[i == LIGHT_VOLUME ? 1 : 0], view, VK_IMAGE_LAYOUT_GENERAL};
+    infos[i] = {sampler_, view, VK_IMAGE_LAYOUT_GENERAL};
     writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     writes[i].dstBinding = i;
     writes[i].descriptorCount = 1;
@@ -139,9 +133,7 @@ VolumeSet::~VolumeSet() {
   vkDestroyPipelineLayout(device, layout_, nullptr);
   vkDestroyDescriptorPool(device, pool_, nullptr);
   vkDestroyDescriptorSetLayout(device, setLayout_, nullptr);
-  for (VkSampler sampler : samplers_) {
-    vkDestroySampler(device, sampler, nullptr);
-  }
+  vkDestroySampler(device, sampler_, nullptr);
 }
 
 void VolumeSet::bind(VkCommandBuffer commands, VkPipelineBindPoint point) const {

@@ -51,7 +51,7 @@ class VolumeSet {
  private:
   Gpu& gpu_;
   GpuBuffer scene_;
-  std::array<VkSampler, 2> samplers_{};  // at the edge; repeating
+  VkSampler sampler_ = VK_NULL_HANDLE;  // at the edge
   VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   VkDescriptorSet set_ = VK_NULL_HANDLE;

@@ -58,6 +58,7 @@ WelkinVolume::WelkinVolume(Gpu& gpu, const GpuImage& target, const Cloud* cloud,
     auto quality = welkin::make<WlkQuality>();
     quality.sliceCount = options.slices;
     quality.lightBufferSize = options.lightSize;
+    quality.flags = options.fresh ? WLK_QUALITY_NO_SKIP : 0;
     quality.scattering = options.underSky ? WLK_SCATTERING_DEFAULT : WLK_SCATTERING_SINGLE;
     welkin::check(wlkSetQuality(context_, made, &quality));
   }

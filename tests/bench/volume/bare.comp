@@ -7,7 +7,7 @@
 #include "scene.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 4) uniform sampler3D lightVolume;  // repeats along z
+layout(set = 0, binding = 4) uniform sampler3D lightVolume;
 layout(set = 0, binding = 5) writeonly uniform image2D target;
 
 // Neighbours in launch order far apart: the driver gives each core one half of the groups.
@@ -31,22 +31,21 @@ void main() {
   vec3 high = max(a, b);
   float begin = max(max(low.x, low.y), low.z);
   float end = min(min(high.x, high.y), high.z);
-  float rate = abs(dot(scene.plane.xyz, direction));
-  float dt = 1.0 / (rate * ceil(scene.optics.w / rate));
+  float dt = 1.0 / scene.optics.w;
   float left = ceil((end - begin) / dt);
   float t = begin + 0.5 * dt;
+  float layers = float(textureSize(lightVolume, 0).z);
   vec3 box = origin + t * step_;
   vec3 boxMove = dt * step_;
   vec3 light = vec3(dot(scene.lightU.xyz, box) + scene.lightU.w,
                     dot(scene.lightV.xyz, box) + scene.lightV.w,
-                    (dot(scene.plane.xyz, t * direction) + scene.plane.w) / 64.0);
+                    (dot(scene.plane.xyz, t * direction) + scene.plane.w + 0.5) / layers);
   vec3 lightMove = vec3(dot(scene.lightU.xyz, boxMove), dot(scene.lightV.xyz, boxMove),
-                        dt * dot(scene.plane.xyz, direction) / 64.0);
+                        dt * dot(scene.plane.xyz, direction) / layers);
   float sum = 0.0;
   if (left > 0.0) {
     do {
-      vec2 there = textureLod(lightVolume, light, 0.0).xy;
-      sum += textureLod(density, box, 0.0).x * (there.x + there.y);
+      sum += textureLod(density, box, 0.0).x * textureLod(lightVolume, light, 0.0).x;
       box += boxMove;
       light += lightMove;
       left -= 1.0;
