@@ -116,7 +116,10 @@ enum {
   WLK_QUALITY_NO_SKIP = 1u << 0,
   /** Volumes cast shadows on air, fog and the bare planet, from the first light, as far as it is
    *  scattered once. */
-  WLK_QUALITY_VOLUME_SHADOWS = 1u << 1
+  WLK_QUALITY_VOLUME_SHADOWS = 1u << 1,
+  /** The engine's shadow map (WlkLightShadow), where one is given with a view's targets, does the
+   *  same: shafts of light. */
+  WLK_QUALITY_LIGHT_SHADOWS = 1u << 2
 };
 
 /** Who chooses between the lowest level and `level`. Controls other than LEVEL leave sliceCount,
@@ -264,6 +267,38 @@ typedef struct WlkFrameInfo {
  *  at 1. [C] Errors: FRAMES_IN_FLIGHT, INVALID_ARGUMENT, WRONG_STATE. */
 WLK_API WlkResult wlkBeginFrame(WlkContext context, const WlkFrameInfo* frame);
 
+#define WLK_MAX_SHADOW_CASCADES 4
+
+/** How the engine's shadow map of a light lies in the world: one map, or cascades, the finest
+ *  first. Every cascade is an orthographic view along the light; points belong to the first one
+ *  that contains them and are shadowed where the map holds something nearer to the light. Points
+ *  in none are lit. Shadows are those of opaque surfaces on air, fog and bare planet, as far as
+ *  light is scattered once; they take nothing from volumes. */
+typedef struct WlkLightShadow {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Layers of the map that are read, from the first on. [1, WLK_MAX_SHADOW_CASCADES], default 1.
+   */
+  uint32_t cascadeCount;
+  /** Index in wlkSetLights. [0, WlkCapabilities::maxLights - 1], default 0. A map is read if this
+   *  light is the brightest one on the volumes or, without any, the first one that reaches the air.
+   */
+  uint32_t light;
+  /** Where positions in clipFromWorld are counted from, for example the camera's position. World,
+   *  m, |x| <= 1e9. Default 0. */
+  double origin[3];
+  /** Per cascade, column-major: (world position - origin, 1) to Vulkan clip space: x and y in
+   *  [-1, 1], (-1, -1) at the outer corner of texel (0, 0), depth in [0, 1]. Affine and
+   *  invertible, |x| <= 1e9, lines of equal x and y within 30 degrees of the light's direction. It
+   *  tells whether depth is reversed. Default identity. */
+  float clipFromWorld[WLK_MAX_SHADOW_CASCADES][16];
+  /** Points up to this far behind the map's surface count as lit: half a texel's width on slopes
+   *  of 45 degrees. m along the light, [0, 1e6], default 0.1. */
+  float bias;
+  uint32_t reserved0;
+} WlkLightShadow;
+
 /** The engine's picture for wlkRenderHeadless. */
 typedef struct WlkHeadlessTargets {
   uint32_t sType;
@@ -273,10 +308,18 @@ typedef struct WlkHeadlessTargets {
   const float* color;
   /** width * height depth values in the camera's convention; null means nothing is there. */
   const float* depth;
+  /** A shadow map; null: none. Needs WLK_QUALITY_LIGHT_SHADOWS. Default null. */
+  const WlkLightShadow* lightShadow;
+  /** shadowWidth * shadowHeight * cascadeCount depth values, the cascades one after the other. */
+  const float* shadowDepth;
+  /** Texels of a cascade. [1, 8192]. */
+  uint32_t shadowWidth;
+  uint32_t shadowHeight;
 } WlkHeadlessTargets;
 
 /** Renders one frame of the view and waits for it. `targets` may be null. [C]
- *  Errors: WRONG_STATE outside headless mode, NOT_PREPARED, DEVICE_LOST. */
+ *  Errors: WRONG_STATE outside headless mode and for a shadow map without the quality's flag,
+ *  INVALID_ARGUMENT, NOT_PREPARED, OUT_OF_*, DEVICE_LOST. */
 WLK_API WlkResult wlkRenderHeadless(WlkContext context, WlkView view,
                                     const WlkHeadlessTargets* targets);
 

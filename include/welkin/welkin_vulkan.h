@@ -84,7 +84,7 @@ typedef struct WlkVulkanImage {
   const void* next;
   VkImage image;
   VkFormat format;
-  /** Pixels or voxels; depth 1 for 2-D images. */
+  /** Pixels or voxels; depth 1 for 2-D images, the number of layers for a shadow map. */
   uint32_t width;
   uint32_t height;
   uint32_t depth;
@@ -92,7 +92,7 @@ typedef struct WlkVulkanImage {
   WlkVulkanImageState after;
 } WlkVulkanImage;
 
-/** What a view reads and writes. Extents must be the view's. */
+/** What a view reads and writes. Extents must be the view's, except the shadow map's. */
 typedef struct WlkVulkanViewTargets {
   uint32_t sType;
   uint32_t structSize;
@@ -108,6 +108,12 @@ typedef struct WlkVulkanViewTargets {
   /** SEPARATE: written. Default null. */
   const WlkVulkanImage* radiance;
   const WlkVulkanImage* transmittance;
+  /** The engine's shadow map and where it lies; both or none. Needs WLK_QUALITY_LIGHT_SHADOWS.
+   *  Default null. */
+  const WlkLightShadow* lightShadow;
+  /** 2-D of any size, single-sampled, with at least lightShadow->cascadeCount layers (`depth`);
+   *  usage and formats as for `depth`. The image's first mip level is read. */
+  const WlkVulkanImage* shadowMap;
 } WlkVulkanViewTargets;
 
 /** Makes a field of a volume read the engine's own 3-D image instead of Welkin's copy; null goes
@@ -128,7 +134,8 @@ WLK_API WlkResult wlkVulkanCmdUpdate(WlkContext context, VkCommandBuffer command
 
 /** Records a view. Outside a render pass. Afterwards the command buffer's pipelines, descriptor
  *  sets, push constants and dynamic state are undefined. At most once per view and frame. [C]
- *  Errors: WRONG_STATE, NOT_PREPARED, INVALID_ARGUMENT, UNSUPPORTED_FORMAT. */
+ *  Errors: WRONG_STATE (also for a shadow map without the quality's flag), NOT_PREPARED,
+ *  INVALID_ARGUMENT, UNSUPPORTED_FORMAT. */
 WLK_API WlkResult wlkVulkanCmdRenderView(WlkContext context, VkCommandBuffer commandBuffer,
                                          WlkView view, const WlkVulkanViewTargets* targets);
 

@@ -104,6 +104,7 @@ void run(const RenderOptions& options) {
   host::applyVolumes(context, scene, progress);
   const WlkView view = host::applyView(context, scene);
   const host::RasterResult opaque = host::makeOpaque(context, scene, progress);
+  const host::ShadowMap shadow = host::makeShadowMap(scene, progress);
   times.load_ms = watch.lap_ms();
 
   progress("pipelines and tables");
@@ -113,6 +114,11 @@ void run(const RenderOptions& options) {
   auto targets = host::make<WlkHeadlessTargets>();
   targets.color = opaque.color.rgba.empty() ? nullptr : opaque.color.rgba.data();
   targets.depth = opaque.depth.values.empty() ? nullptr : opaque.depth.values.data();
+  if (!shadow.depth.empty()) {
+    targets.lightShadow = &shadow.place;
+    targets.shadowDepth = shadow.depth.data();
+    targets.shadowWidth = targets.shadowHeight = shadow.size;
+  }
   for (uint32_t frame = 0; frame < options.frames; ++frame) {
     progress("frame " + std::to_string(frame + 1) + " of " + std::to_string(options.frames));
     host::check(wlkRenderHeadless(context, view, &targets), options.scene, "");

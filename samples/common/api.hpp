@@ -73,6 +73,9 @@ inline constexpr WlkStructType structType(const WlkQuality&) {
 inline constexpr WlkStructType structType(const WlkQualityState&) {
   return WLK_STRUCT_QUALITY_STATE;
 }
+inline constexpr WlkStructType structType(const WlkLightShadow&) {
+  return WLK_STRUCT_LIGHT_SHADOW;
+}
 inline constexpr WlkStructType structType(const WlkHeadlessTargets&) {
   return WLK_STRUCT_HEADLESS_TARGETS;
 }

@@ -3,11 +3,19 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "common/api.hpp"
 #include "common/scene.hpp"
 
 namespace host {
+
+/// Of the geometry: three cascades, one after the other.
+struct ShadowMap {
+  WlkLightShadow place;
+  std::vector<float> depth;
+  uint32_t size = 0;
+};
 
 /// Told before each slow step.
 using Progress = std::function<void(const std::string&)>;
@@ -27,5 +35,8 @@ Illumination sampleIllumination(WlkContext context, const Scene& scene, double l
 
 /// The opaque picture: drawn, read, or empty images where the scene has none. Needs applyWorld.
 RasterResult makeOpaque(WlkContext context, const Scene& scene, const Progress& progress);
+
+/// The geometry's shadow map of the first light, or an empty one if it casts no shadows.
+ShadowMap makeShadowMap(const Scene& scene, const Progress& progress);
 
 }  // namespace host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Opaque geometry simple enough to ray cast on the host: a terrain and spheres.
+// Opaque geometry simple enough to ray cast on the host: a terrain, spheres and boxes.
 #pragma once
 
 #include <cstdint>
@@ -38,9 +38,19 @@ struct SphereInfo {
   Rgb albedo{0.5f, 0.5f, 0.5f};
 };
 
+struct BoxInfo {
+  /// Least corner, and edges along x, y and z, in metres.
+  Vec3 min;
+  Vec3 size{1.0, 1.0, 1.0};
+  Rgb albedo{0.5f, 0.5f, 0.5f};
+};
+
 struct GeometryDesc {
   std::optional<TerrainInfo> terrain;
   std::vector<SphereInfo> spheres;
+  std::vector<BoxInfo> boxes;
+  /// Whether it shades itself, and by a shadow map the air.
+  bool shadows = false;
 };
 
 /// Heights over the terrain's square, baked once and interpolated bilinearly.
@@ -89,10 +99,15 @@ struct RasterResult {
 };
 
 /// Draws what the camera sees: reflected radiance albedo / pi (E max(cos, 0) + ambient part),
-/// without shadows, and reversed depth; 0 and 0 where nothing is. Terrain under sea level is left
-/// out: the planet's own ground shows there.
+/// with shadows if `geometry` says so, and reversed depth; 0 and 0 where nothing is. Terrain under
+/// sea level is left out: the planet's own ground shows there.
 RasterResult rasterise(const GeometryDesc& geometry, const HeightField* field,
                        const PlanetShape& planet, const Illumination& light,
                        const CameraDesc& camera, uint32_t width, uint32_t height);
+
+/// Distance to the nearest surface along a unit vector, farther than `nearest`; infinite if there
+/// is none.
+double castGeometry(const GeometryDesc& geometry, const HeightField* field,
+                    const PlanetShape& planet, Vec3 origin, Vec3 direction, double nearest);
 
 }  // namespace host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ray casts terrain and spheres into radiance and reversed depth.
+// Ray casts terrain, spheres and boxes into radiance and reversed depth.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -111,6 +111,51 @@ void castSphere(const SphereInfo& sphere, Vec3 eye, Vec3 ray, double nearest, Hi
   }
 }
 
+void castBox(const BoxInfo& box, Vec3 eye, Vec3 ray, double nearest, Hit& hit) {
+  double t0 = nearest;
+  double t1 = NO_HIT;
+  const Vec3 from = eye - box.min;
+  clipAxis(from.x, ray.x, 0.0, box.size.x, t0, t1);
+  clipAxis(from.y, ray.y, 0.0, box.size.y, t0, t1);
+  clipAxis(from.z, ray.z, 0.0, box.size.z, t0, t1);
+  if (!(t0 < t1) || t0 >= hit.distance || t0 <= nearest) {
+    return;
+  }
+  hit.distance = t0;
+  // The face that the point lies on: there it is farthest from the middle in shares of the edge.
+  const Vec3 at = eye + ray * t0 - box.min - box.size * 0.5;
+  const Vec3 share{std::abs(at.x) / box.size.x, std::abs(at.y) / box.size.y,
+                   std::abs(at.z) / box.size.z};
+  const auto sign = [](double x) { return x < 0.0 ? -1.0 : 1.0; };
+  hit.normal = share.x >= share.y && share.x >= share.z ? Vec3{sign(at.x), 0.0, 0.0}
+               : share.y >= share.z                     ? Vec3{0.0, sign(at.y), 0.0}
+                                                        : Vec3{0.0, 0.0, sign(at.z)};
+  hit.albedo = box.albedo;
+}
+
+// What a ray meets behind `nearest`, counted in lengths of the ray.
+Hit castAll(const GeometryDesc& geometry, const HeightField* field, const PlanetShape& planet,
+            Vec3 eye, Vec3 ray, double nearest) {
+  Hit hit;
+  if (geometry.terrain && field != nullptr) {
+    const TerrainInfo& terrain = *geometry.terrain;
+    const double t = castTerrain(terrain, *field, planet, eye, ray, nearest);
+    const Vec3 p = eye + ray * t;
+    if (t < NO_HIT && altitudeOf(planet, p) > 0.0) {
+      hit.distance = t;
+      hit.normal = field->normal(p.x - terrain.centre.x, p.z - terrain.centre.z);
+      hit.albedo = terrainAlbedo(terrain, p, altitudeOf(planet, p), hit.normal);
+    }
+  }
+  for (const SphereInfo& sphere : geometry.spheres) {
+    castSphere(sphere, eye, ray, nearest, hit);
+  }
+  for (const BoxInfo& box : geometry.boxes) {
+    castBox(box, eye, ray, nearest, hit);
+  }
+  return hit;
+}
+
 std::array<double, 3> irradianceAt(const SunLight& light, double position) {
   if (light.irradiance.empty()) {
     return {};
@@ -129,6 +174,11 @@ std::array<double, 3> irradianceAt(const SunLight& light, double position) {
 
 }  // namespace
 
+double castGeometry(const GeometryDesc& geometry, const HeightField* field,
+                    const PlanetShape& planet, Vec3 origin, Vec3 direction, double nearest) {
+  return castAll(geometry, field, planet, origin, direction, nearest).distance;
+}
+
 RasterResult rasterise(const GeometryDesc& geometry, const HeightField* field,
                        const PlanetShape& planet, const Illumination& light,
                        const CameraDesc& camera, uint32_t width, uint32_t height) {
@@ -140,21 +190,7 @@ RasterResult rasterise(const GeometryDesc& geometry, const HeightField* field,
   parallelFor(height, [&](uint32_t y) {
     for (uint32_t x = 0; x < width; ++x) {
       const Vec3 ray = pixelRay(camera, axes, x + 0.5, y + 0.5, width, height);
-      Hit hit;
-      if (geometry.terrain && field != nullptr) {
-        const TerrainInfo& terrain = *geometry.terrain;
-        const double t =
-            castTerrain(terrain, *field, planet, camera.position, ray, camera.nearPlane);
-        const Vec3 p = camera.position + ray * t;
-        if (t < NO_HIT && altitudeOf(planet, p) > 0.0) {
-          hit.distance = t;
-          hit.normal = field->normal(p.x - terrain.centre.x, p.z - terrain.centre.z);
-          hit.albedo = terrainAlbedo(terrain, p, altitudeOf(planet, p), hit.normal);
-        }
-      }
-      for (const SphereInfo& sphere : geometry.spheres) {
-        castSphere(sphere, camera.position, ray, camera.nearPlane, hit);
-      }
+      const Hit hit = castAll(geometry, field, planet, camera.position, ray, camera.nearPlane);
       if (hit.distance == NO_HIT) {
         continue;
       }
@@ -167,7 +203,13 @@ RasterResult rasterise(const GeometryDesc& geometry, const HeightField* field,
       }
       for (const SunLight& sun : light.lights) {
         const std::array<double, 3> facing = irradianceAt(sun, place);
-        const double cosine = std::max(dot(hit.normal, sun.direction), 0.0);
+        double cosine = std::max(dot(hit.normal, sun.direction), 0.0);
+        // A thousandth of the distance off the surface: no shadow from the surface itself.
+        const Vec3 off = camera.position + ray * hit.distance + hit.normal * (1e-3 * hit.distance);
+        if (geometry.shadows && cosine > 0.0 &&
+            castAll(geometry, field, planet, off, sun.direction, 0.0).distance < NO_HIT) {
+          cosine = 0.0;
+        }
         for (size_t c = 0; c < 3; ++c) {
           received[c] += facing[c] * cosine;
         }

@@ -123,23 +123,45 @@ SphereInfo parseSphere(const JsonNode& node) {
   return info;
 }
 
+BoxInfo parseBox(const JsonNode& node) {
+  node.onlyKeys({"type", "min", "size", "albedo"});
+  BoxInfo info;
+  info.min = node.at("min").vec3();
+  info.size = node.at("size").vec3();
+  if (!(info.size.x > 0.0 && info.size.y > 0.0 && info.size.z > 0.0)) {
+    node.at("size").fail("expected edges > 0");
+  }
+  node.optional("albedo", info.albedo, 0.0, 1.0);
+  return info;
+}
+
 void parseOpaque(const JsonNode& node, Scene& scene) {
-  node.onlyKeys({"color", "depth", "depthKind", "geometry"});
+  node.onlyKeys({"color", "depth", "depthKind", "geometry", "shadows"});
   if (node.has("geometry")) {
     if (node.has("color") || node.has("depth")) {
       node.fail("expected color and depth, or geometry, not both");
     }
     scene.geometry.emplace();
     for (const JsonNode& item : node.at("geometry").elements()) {
-      if (item.at("type").word({"terrain", "sphere"}) == 1) {
+      const uint32_t type = item.at("type").word({"terrain", "sphere", "box"});
+      if (type == 1) {
         scene.geometry->spheres.push_back(parseSphere(item));
+      } else if (type == 2) {
+        scene.geometry->boxes.push_back(parseBox(item));
       } else if (scene.geometry->terrain) {
         item.fail("expected at most one terrain");
       } else {
         scene.geometry->terrain = parseTerrain(item);
       }
     }
+    if (node.has("shadows") && node.at("shadows").boolean()) {
+      scene.geometry->shadows = true;
+      scene.quality.flags |= WLK_QUALITY_LIGHT_SHADOWS;
+    }
     return;
+  }
+  if (node.has("shadows")) {
+    node.at("shadows").fail("expected geometry, which casts them");
   }
   OpaqueFiles files;
   files.color = resolvePath(node.at("color"));

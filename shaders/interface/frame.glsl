@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 const int MAX_LIGHTS = 2;
 
+const int MAX_CASCADES = 4;
+
 // A light that reaches the air.
 struct LightUniforms {
   vec4 direction;   // to the light, angular radius
@@ -42,5 +44,10 @@ struct FrameUniforms {
   // Of the map of volumes' shadow: u, v in [0, 1] and distance d along the light (m), as
   // dot((position, 1), row); least d of a volume.
   vec4 shadow[3];
+  // Least d of a volume; cascades of the engine's map; distance of the nearest volume.
   vec4 shadowRange;
+  // Of each cascade: u, v and depth from the light on, in [0, 1], as dot((position, 1), row).
+  vec4 cascade[3 * MAX_CASCADES];
+  // What turns the map's value into that depth: factor, summand; bias as depth.
+  vec4 cascadeDepth[MAX_CASCADES];
 };

@@ -102,7 +102,7 @@ vec3 groundRadiance(Air air, vec3 direction, float ground) {
     float visible = lightVisibility(air, 0.0f, foot.sunMu, light.direction.w);
     vec3 irradiance = sun * (max(foot.sunMu, 0.0f) * visible);
     if (SHADOWS_ENABLED && i == 0) {
-      irradiance *= exp(-volumeShadow(direction * ground).x);
+      irradiance *= shadowTransmittance(direction * ground);
     }
     if (MULTIPLE_ENABLED) {
       irradiance += groundLight(foot.sunMu);
@@ -181,7 +181,7 @@ PixelLayer pixelLayer(uvec2 pixel) {
   }
   if (SHADOWS_ENABLED) {
     float passes = VOLUMES_ENABLED && covered(pixel) ? volumeState(pixel).w : 1.0f;
-    shade = shadowedLight(air, ray, direction, reach, passes);
+    shade = shadowedLight(air, ray, direction, reach, passes, pixel);
   }
   if (VOLUMES_ENABLED && covered(pixel)) {
     vec4 state = volumeState(pixel);

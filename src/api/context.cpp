@@ -98,10 +98,11 @@ uint16_t nextTag() {
   return last.fetch_add(1, std::memory_order_relaxed);
 }
 
-vk::Image makeDummy(vk::Device& device, VkImageType type) {
+vk::Image makeDummy(vk::Device& device, VkImageType type, bool layers = false) {
   vk::ImageInfo info;
   info.type = type;
   info.format = VK_FORMAT_R32_SFLOAT;
+  info.arrayView = layers;
   info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   return vk::Image(device, info);
 }
@@ -144,6 +145,7 @@ WlkContext_T::WlkContext_T(const WlkContextInfo& contextInfo)
     pipelines.emplace(*device, &memory);
     dummy2d = makeDummy(*device, VK_IMAGE_TYPE_2D);
     dummy3d = makeDummy(*device, VK_IMAGE_TYPE_3D);
+    dummyArray = makeDummy(*device, VK_IMAGE_TYPE_2D, true);
   }
 }
 

@@ -62,6 +62,7 @@ struct ImportedView {
   VkImage image;
   VkImageViewType type;
   VkFormat format;
+  uint32_t layers;
   VkImageView view;
 };
 
@@ -110,6 +111,7 @@ struct WlkContext_T {
   std::pmr::vector<welkin::ShadowCaster> shadowCasters;
   welkin::vk::Image dummy2d;
   welkin::vk::Image dummy3d;
+  welkin::vk::Image dummyArray;
 
   bool fogActive() const { return air.fog && air.fog->extinction > 0; }
   bool absorbs() const {
@@ -159,6 +161,6 @@ void recordFrame(WlkContext_T& context, VkCommandBuffer commands, ViewState& vie
 
 // View of an engine's image from the cache, made when it is new.
 VkImageView importView(WlkContext_T& context, const WlkVulkanImage& image, VkImageViewType type,
-                       VkImageAspectFlags aspect);
+                       VkImageAspectFlags aspect, uint32_t layers = 1);
 
 }  // namespace welkin

@@ -172,6 +172,16 @@ WlkShadowMapInfo shadowMap() {
   return m;
 }
 
+WlkLightShadow lightShadow() {
+  auto s = blank<WlkLightShadow>(WLK_STRUCT_LIGHT_SHADOW);
+  s.cascadeCount = 1;
+  for (auto& matrix : s.clipFromWorld) {
+    matrix[0] = matrix[5] = matrix[10] = matrix[15] = 1;
+  }
+  s.bias = 0.1f;
+  return s;
+}
+
 WlkPhaseQuery phaseQuery() {
   auto q = blank<WlkPhaseQuery>(WLK_STRUCT_PHASE_QUERY);
   q.order = 1;
@@ -226,13 +236,16 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
     case WLK_STRUCT_FRAME_INFO:
       return write(blank<WlkFrameInfo>(sType), structSize, structure);
     case WLK_STRUCT_HEADLESS_TARGETS:
-      return write(blank<WlkHeadlessTargets>(sType), structSize, structure);
+      return write(blank<WlkHeadlessTargets>(sType), structSize, structure,
+                   HEADLESS_TARGETS_FIRST_SIZE);
     case WLK_STRUCT_IMAGE_DATA:
       return write(blank<WlkImageData>(sType), structSize, structure);
     case WLK_STRUCT_FRAME_STATS:
       return write(blank<WlkFrameStats>(sType), structSize, structure);
     case WLK_STRUCT_ERROR_ESTIMATE:
       return write(blank<WlkErrorEstimate>(sType), structSize, structure);
+    case WLK_STRUCT_LIGHT_SHADOW:
+      return write(lightShadow(), structSize, structure);
     case WLK_STRUCT_RAY_BATCH:
       return write(rays(), structSize, structure, RAY_BATCH_FIRST_SIZE);
     case WLK_STRUCT_SKY_MAP_QUERY:
@@ -246,7 +259,8 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
     case WLK_STRUCT_VULKAN_IMAGE:
       return write(blank<WlkVulkanImage>(sType), structSize, structure);
     case WLK_STRUCT_VULKAN_VIEW_TARGETS:
-      return write(blank<WlkVulkanViewTargets>(sType), structSize, structure);
+      return write(blank<WlkVulkanViewTargets>(sType), structSize, structure,
+                   VIEW_TARGETS_FIRST_SIZE);
     case WLK_STRUCT_SHADOW_MAP_INFO:
       return write(shadowMap(), structSize, structure);
     case WLK_STRUCT_SHADOW_MAP_STATE:

@@ -7,6 +7,7 @@
 #include "api/context.hpp"
 #include "api/control.hpp"
 #include "api/leap_maps.hpp"
+#include "api/light_shadow_input.hpp"
 #include "api/light_stores.hpp"
 #include "api/plan_input.hpp"
 #include "api/sky_light.hpp"
@@ -132,11 +133,22 @@ void readTarget(const vk::Dispatch& vk, VkCommandBuffer commands, const ViewStat
 
 void renderHeadless(WlkContext_T& c, ViewState& view, const WlkHeadlessTargets& targets) {
   const vk::Dispatch& vk = c.device->vk();
+  ViewTargets images;
+  if (targets.lightShadow != nullptr) {
+    images.lightShadow = lightShadowOf(c, view, targets.lightShadow);
+    stageShadowDepth(c, view, targets, targets.lightShadow->cascadeCount);
+  }
   VkCommandBuffer commands = c.headless->begin();
   recordUpdate(c, commands);
   ViewResources& r = view.resources;
   const VkDeviceSize pixels = VkDeviceSize{view.info.width} * view.info.height;
-  ViewTargets images;
+  if (targets.lightShadow != nullptr) {
+    VkBufferImageCopy region{};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, r.shadowDepth.info().layers};
+    region.imageExtent = r.shadowDepth.info().extent;
+    copyInto(vk, commands, r.shadowUpload, r.shadowDepth, region, false);
+    images.shadowMap = ownTarget(r.shadowDepth, SAMPLED, SAMPLED);
+  }
   if (targets.color != nullptr) {
     uploadPixels(vk, commands, view, targets.color, 0, pixels * 16, r.color);
     images.colorInput = ownTarget(r.color, SAMPLED, SAMPLED);
@@ -195,6 +207,7 @@ void recordUpdate(WlkContext_T& c, VkCommandBuffer commands) {
                     size_t{SCATTERING_FORMS} * c.volumes.count());
   clearOnce(vk, commands, c.dummy2d);
   clearOnce(vk, commands, c.dummy3d);
+  clearOnce(vk, commands, c.dummyArray);
   for (uint32_t i = 0; i < c.volumes.slotCount(); ++i) {
     VolumeState* volume = c.volumes.at(i);
     if (volume == nullptr) {
@@ -232,6 +245,8 @@ void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
                  const ViewTargets& targets) {
   beginControl(c, view);
   PlanInput input = planInput(c, view);
+  input.shadowMap = targets.shadowMap && targets.lightShadow.cascades > 0;
+  input.shadowLight = targets.lightShadow.light;
   // Headless and separate targets hold a result even when nothing is drawn; an engine's image that
   // is composited in place does not need one.
   input.mustWrite = view.info.composite == WLK_COMPOSITE_SEPARATE ||
@@ -269,6 +284,7 @@ void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
   record.volumes = c.recordVolumes;
   record.dummy2d = c.dummy2d.view();
   record.dummy3d = c.dummy3d.view();
+  record.dummyArray = c.dummyArray.view();
   record.frameIndex = c.frameIndex;
   record.slot = static_cast<uint32_t>(c.frameIndex % c.maxFramesInFlight);
   recordView(*c.device, *c.pipelines, commands, view, record, targets);
@@ -396,7 +412,7 @@ WlkResult wlkRenderHeadless(WlkContext context, WlkView view, const WlkHeadlessT
     ViewState& state = c.view(view);
     WlkHeadlessTargets value{};
     if (targets != nullptr) {
-      value = copyStruct(targets, WLK_STRUCT_HEADLESS_TARGETS);
+      value = copyStruct(targets, WLK_STRUCT_HEADLESS_TARGETS, HEADLESS_TARGETS_FIRST_SIZE);
       checkNoChain(targets);
     }
     c.requireDevice("wlkRenderHeadless");

@@ -62,6 +62,8 @@ const char* structName(uint32_t sType) {
       return "WlkFrameStats";
     case WLK_STRUCT_ERROR_ESTIMATE:
       return "WlkErrorEstimate";
+    case WLK_STRUCT_LIGHT_SHADOW:
+      return "WlkLightShadow";
     case WLK_STRUCT_RAY_BATCH:
       return "WlkRayBatch";
     case WLK_STRUCT_SKY_MAP_QUERY:

@@ -2,7 +2,7 @@
 // Checks of what comes over the C boundary. Each throws Failure naming structure and field.
 #pragma once
 
-#include <welkin/welkin.h>
+#include <welkin/welkin_vulkan.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -23,12 +23,15 @@ const char* structName(uint32_t sType);
 
 void checkPointer(const void* pointer, const char* argument);
 
-// What WlkRayBatch was before maxOrder, WlkLight before limbDarkening, WlkFog before medium.
+// What WlkRayBatch was before maxOrder, WlkLight before limbDarkening, WlkFog before medium,
+// targets before shadow maps.
 constexpr uint32_t RAY_BATCH_FIRST_SIZE = offsetof(WlkRayBatch, maxOrder);
 constexpr uint32_t VIEW_FIRST_SIZE = offsetof(WlkViewInfo, color);
 constexpr uint32_t LIGHT_FIRST_SIZE = offsetof(WlkLight, limbDarkening);
 constexpr uint32_t QUALITY_FIRST_SIZE = offsetof(WlkQuality, volumeCells);
 constexpr uint32_t FOG_FIRST_SIZE = offsetof(WlkFog, medium);
+constexpr uint32_t HEADLESS_TARGETS_FIRST_SIZE = offsetof(WlkHeadlessTargets, lightShadow);
+constexpr uint32_t VIEW_TARGETS_FIRST_SIZE = offsetof(WlkVulkanViewTargets, lightShadow);
 
 // Pointer, sType and structSize of a structure; `size` is this library's sizeof, `firstSize` that
 // of the header that introduced the structure, 0 if it has not grown since.

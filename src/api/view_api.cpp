@@ -151,7 +151,9 @@ WlkQuality checkedQuality(const WlkQuality* quality) {
     checkRange(q.sType, "batchSize", q.batchSize, 0, 0);
     checkRange(q.sType, "lightBufferSize", q.lightBufferSize, 0, 0);
   }
-  if ((q.flags & ~uint64_t{WLK_QUALITY_NO_SKIP | WLK_QUALITY_VOLUME_SHADOWS}) != 0) {
+  constexpr uint64_t FLAGS =
+      WLK_QUALITY_NO_SKIP | WLK_QUALITY_VOLUME_SHADOWS | WLK_QUALITY_LIGHT_SHADOWS;
+  if ((q.flags & ~FLAGS) != 0) {
     fail(WLK_ERROR_INVALID_ARGUMENT, q.sType, "flags", "WlkQuality::flags has unknown bits");
   }
   return q;

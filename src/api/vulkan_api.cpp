@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "api/context.hpp"
+#include "api/light_shadow_input.hpp"
 
 namespace {
 
@@ -70,16 +71,50 @@ TargetImage colorTarget(WlkContext_T& c, const WlkVulkanImage* image, const char
   return importTarget(c, value, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
 }
 
+// Throws if the format is none that Welkin reads as depth.
+VkImageAspectFlags checkedDepth(const WlkVulkanImage& image, const char* role) {
+  const VkImageAspectFlags aspects = depthAspects(image.format);
+  if (aspects == 0) {
+    fail(WLK_ERROR_UNSUPPORTED_FORMAT, WLK_STRUCT_VULKAN_IMAGE, role,
+         "%s has VkFormat %d, which is no depth format Welkin reads", role,
+         static_cast<int>(image.format));
+  }
+  return aspects;
+}
+
+void importShadowMap(WlkContext_T& c, const ViewState& view, const WlkVulkanViewTargets& t,
+                     ViewTargets& targets) {
+  if (t.lightShadow == nullptr || t.shadowMap == nullptr) {
+    const char* missing = t.shadowMap == nullptr ? "shadowMap" : "lightShadow";
+    fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_VULKAN_VIEW_TARGETS, missing,
+         "WlkVulkanViewTargets::%s is null: a shadow map needs both", missing);
+  }
+  targets.lightShadow = lightShadowOf(c, view, t.lightShadow);
+  const WlkVulkanImage named = copyStruct(t.shadowMap, WLK_STRUCT_VULKAN_IMAGE);
+  const WlkVulkanImage image = checkedImage(t.shadowMap, "shadowMap", named.width, named.height);
+  if (image.depth < t.lightShadow->cascadeCount || image.depth > 2048) {
+    fail(WLK_ERROR_INVALID_ARGUMENT, image.sType, "shadowMap",
+         "shadowMap has %u layers, WlkLightShadow::cascadeCount is %u", image.depth,
+         t.lightShadow->cascadeCount);
+  }
+  const VkImageAspectFlags aspects = checkedDepth(image, "shadowMap");
+  TargetImage& map = targets.shadowMap;
+  map.image = image.image;
+  map.view = importView(c, image, VK_IMAGE_VIEW_TYPE_2D_ARRAY,
+                        aspects & ~VkImageAspectFlags{VK_IMAGE_ASPECT_STENCIL_BIT}, image.depth);
+  map.barrierAspect = aspects;
+  map.before = image.before;
+  map.after = image.after;
+}
+
 ViewTargets importTargets(WlkContext_T& c, const ViewState& view, const WlkVulkanViewTargets& t) {
   ViewTargets targets;
+  if (t.lightShadow != nullptr || t.shadowMap != nullptr) {
+    importShadowMap(c, view, t, targets);
+  }
   if (t.depth != nullptr) {
     const WlkVulkanImage depth = checkedImage(t.depth, "depth", view.info.width, view.info.height);
-    const VkImageAspectFlags aspects = depthAspects(depth.format);
-    if (aspects == 0) {
-      fail(WLK_ERROR_UNSUPPORTED_FORMAT, WLK_STRUCT_VULKAN_IMAGE, "depth",
-           "depth has VkFormat %d, which is no depth format Welkin reads",
-           static_cast<int>(depth.format));
-    }
+    const VkImageAspectFlags aspects = checkedDepth(depth, "depth");
     targets.depth =
         importTarget(c, depth, aspects & ~VkImageAspectFlags{VK_IMAGE_ASPECT_STENCIL_BIT}, aspects);
   }
@@ -139,15 +174,17 @@ bool everythingUploaded(const WlkContext_T& c) {
 }
 
 VkImageView importView(WlkContext_T& c, const WlkVulkanImage& image, VkImageViewType type,
-                       VkImageAspectFlags aspect) {
+                       VkImageAspectFlags aspect, uint32_t layers) {
   for (const ImportedView& known : c.imported) {
-    if (known.image == image.image && known.type == type && known.format == image.format) {
+    if (known.image == image.image && known.type == type && known.format == image.format &&
+        known.layers == layers) {
       return known.view;
     }
   }
   c.imported.reserve(c.imported.size() + 1);
-  const VkImageView view = vk::createView(*c.device, image.image, image.format, type, aspect, 1);
-  c.imported.push_back({image.image, type, image.format, view});
+  const VkImageView view =
+      vk::createView(*c.device, image.image, image.format, type, aspect, layers);
+  c.imported.push_back({image.image, type, image.format, layers, view});
   return view;
 }
 
@@ -264,7 +301,8 @@ WlkResult wlkVulkanCmdRenderView(WlkContext context, VkCommandBuffer commandBuff
   return guarded([&] {
     WlkContext_T& c = requireFrame(context, commandBuffer, "wlkVulkanCmdRenderView");
     ViewState& state = c.view(view);
-    const WlkVulkanViewTargets t = copyStruct(targets, WLK_STRUCT_VULKAN_VIEW_TARGETS);
+    const WlkVulkanViewTargets t =
+        copyStruct(targets, WLK_STRUCT_VULKAN_VIEW_TARGETS, VIEW_TARGETS_FIRST_SIZE);
     checkNoChain(targets);
     if (!state.prepared) {
       fail(WLK_ERROR_NOT_PREPARED, 0, "view", "call wlkPrepare before recording");

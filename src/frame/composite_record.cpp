@@ -17,7 +17,7 @@ vk::PipelineKey compositeKeyOf(const vk::Pipelines& pipelines, const ViewState& 
   v.multiple = view.plan.multiple;
   v.space = view.plan.space;
   v.allLight = view.plan.allLight;
-  v.shadows = view.plan.shadows && view.resources.shadowImage;
+  v.shadows = view.plan.shadowKind() & (view.resources.shadowImage ? 3U : 2U);
   // Variants are prepared for a layer as a whole; until one for space is, the table must do.
   vk::PipelineKey key;
   bool found = false;
@@ -56,6 +56,9 @@ void bindComposite(Bindings& bindings, const vk::Pipelines& pipelines, ViewState
   bindings.image(set, vk::BIND_COMPOSITE_SHADOW, shadow ? r.shadowImage.view() : in.dummy2d,
                  pipelines.linear(),
                  shadow ? r.shadowImage.layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+  bindings.image(set, vk::BIND_COMPOSITE_LIGHT_SHADOW,
+                 view.plan.lightShadows ? targets.shadowMap.view : in.dummyArray,
+                 pipelines.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   const bool blend = view.info.composite == WLK_COMPOSITE_BLEND;
   if (targets.inputIsTarget && !blend) {
     bindings.image(set, vk::BIND_COMPOSITE_INPUT, targets.target0.view, pipelines.nearest(),

@@ -301,6 +301,7 @@ SliceQuality resolveQuality(const WlkQuality& quality) {
   result.wholeOrders = scattering == WLK_SCATTERING_FORWARD_INTEGER;
   result.multipleSky = scattering != WLK_SCATTERING_SINGLE;
   result.volumeShadows = (quality.flags & WLK_QUALITY_VOLUME_SHADOWS) != 0;
+  result.lightShadows = (quality.flags & WLK_QUALITY_LIGHT_SHADOWS) != 0;
   result.noSkip = (quality.flags & WLK_QUALITY_NO_SKIP) != 0;
   result.lightRoom = result.lightSize;
   result.cellRoom = result.transportCells;
@@ -458,6 +459,8 @@ void makePlan(const PlanInput& in, Plan& plan) {
   }
   plan.shadowReason = shadowReasonOf(in, plan);
   plan.shadows = plan.shadowReason == WLK_REASON_NEEDED;
+  plan.lightShadows = in.shadowMap && in.quality.lightShadows && (plan.air || plan.fog) &&
+                      plan.lightReaches && plan.lights.light[0].index == in.shadowLight;
   const bool something = plan.air || plan.fog || plan.drawnCount > 0;
   plan.composite = something || in.mustWrite || in.quality.noSkip;
   plan.compositeReason =

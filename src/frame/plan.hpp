@@ -37,6 +37,7 @@ struct SliceQuality {
   uint32_t ambientCells;
   uint32_t ambientRoom;
   bool volumeShadows;  // on air, fog and ground
+  bool lightShadows;   // likewise, by the engine's map
   bool multipleSky;    // light scattered more than once in air and fog
   // Index of the scattering tables.
   uint32_t form() const { return transport ? 2 : (forwardScattering && wholeOrders ? 1 : 0); }
@@ -110,7 +111,9 @@ struct PlanInput {
   bool ambient = false;  // light of sky and ground is asked for on volumes
   // And it is that of the scene's own air, which the view has to show.
   bool ambientOfAir = false;
-  bool mustWrite = false;  // the targets need a value even if nothing is drawn
+  bool shadowMap = false;    // the engine gave one
+  uint32_t shadowLight = 0;  // whose it is, in the order the engine set them
+  bool mustWrite = false;    // the targets need a value even if nothing is drawn
   WlkPlanet planet{};
   glm::dvec3 eye{0};
   glm::dmat4 clipFromEye{1.0};  // position relative to the eye, world orientation, to clip space
@@ -156,7 +159,8 @@ struct Plan {
   bool composite = false;
   bool ambient = false;  // light of sky and ground is asked for on volumes
   SliceQuality quality{};
-  bool shadows = false;  // of volumes, on air, fog and ground
+  bool shadows = false;       // of volumes, on air, fog and ground
+  bool lightShadows = false;  // of surfaces, by the engine's map
   uint32_t shadowReason = WLK_REASON_NEEDED;
   uint32_t skyReason = WLK_REASON_NEEDED;
   uint32_t compositeReason = WLK_REASON_NEEDED;
@@ -165,6 +169,8 @@ struct Plan {
   uint32_t airKind() const { return air ? (absorber ? 2U : 1U) : 0U; }
   // LIGHT_COUNT of the passes.
   uint32_t lightCount() const { return light ? lights.count : 0U; }
+  // SHADOW_KIND of the passes.
+  uint32_t shadowKind() const { return (shadows ? 1U : 0U) | (lightShadows ? 2U : 0U); }
   // DISK_KIND of the passes.
   uint32_t diskKind() const { return disk ? (shapedDisk ? 2U : 1U) : 0U; }
 };

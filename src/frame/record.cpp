@@ -18,6 +18,10 @@ namespace {
 
 using interface_::FrameUniforms;
 
+glm::dvec3 eyeOf(const ViewState& view) {
+  return {view.camera.position[0], view.camera.position[1], view.camera.position[2]};
+}
+
 class Recorder {
  public:
   Recorder(vk::Device& device, const vk::Pipelines& pipelines, VkCommandBuffer commands,
@@ -77,6 +81,11 @@ class Recorder {
     return sum / static_cast<float>(std::max(view_.plan.drawnCount, 1U));
   }
 
+  // m; the drawn ones come first, nearest first.
+  double nearestVolume() const {
+    return view_.plan.drawnCount > 0 ? view_.plan.volumes[0].distance : 1e30;
+  }
+
   void start() {
     const Plan& plan = view_.plan;
     anything_ = plan.composite || plan.drawnCount > 0;
@@ -94,6 +103,9 @@ class Recorder {
     fillFrame(*in_.air, *in_.sky, view_, frame);
     frame.ground.w = diskPower();
     frame.output_.w = targets_.inputIsTarget || targets_.colorInput ? 1.0f : 0.0f;
+    if (plan.lightShadows) {
+      fillLightShadow(targets_.lightShadow, eyeOf(view_), nearestVolume(), frame);
+    }
     std::memcpy(memory, &frame, sizeof frame);
     skyKey_ = skyTableKeyOf(frame);
     if (plan.fog) {
@@ -158,9 +170,10 @@ class Recorder {
     work_[1] = sampled;
     work_[2] = view_.info.composite == WLK_COMPOSITE_BLEND ? attachment : GENERAL_STATE;
     work_[3] = GENERAL_STATE;
+    work_[4] = sampled;
     const std::array images = imageList();
     for (size_t i = 0; i < images.size(); ++i) {
-      if (*images[i]) {
+      if (*images[i] && used(i)) {
         c_.image(images[i]->image, images[i]->barrierAspect, images[i]->before, work_[i]);
       }
     }
@@ -172,16 +185,19 @@ class Recorder {
       if (!*images[i]) {
         continue;
       }
-      const WlkVulkanImageState& from = anything_ ? work_[i] : images[i]->before;
-      if (anything_ || from.layout != images[i]->after.layout) {
+      const WlkVulkanImageState& from = used(i) ? work_[i] : images[i]->before;
+      if (used(i) || from.layout != images[i]->after.layout) {
         c_.image(images[i]->image, images[i]->barrierAspect, from, images[i]->after);
       }
     }
   }
 
-  std::array<const TargetImage*, 4> imageList() const {
-    return {&targets_.depth, &targets_.colorInput, &targets_.target0, &targets_.target1};
+  std::array<const TargetImage*, 5> imageList() const {
+    return {&targets_.depth, &targets_.colorInput, &targets_.target0, &targets_.target1,
+            &targets_.shadowMap};
   }
+  // Whether the commands use image `i` of the list, if there is one.
+  bool used(size_t i) const { return anything_ && (i != 4 || view_.plan.lightShadows); }
 
   void recordComposite() {
     WlkPassStats stats = passStats("composite", WLK_PASS_COMPOSITE, 0);
@@ -249,7 +265,7 @@ class Recorder {
   ViewSlot& slot_;
   VkPipeline compositePipeline_ = VK_NULL_HANDLE;
   bool anything_ = false;
-  std::array<WlkVulkanImageState, 4> work_{};
+  std::array<WlkVulkanImageState, 5> work_{};
   SkyTableKey skyKey_{};
 };
 

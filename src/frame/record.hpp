@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "frame/light_shadow.hpp"
 #include "frame/scene.hpp"
 #include "frame/uniforms.hpp"
 
@@ -25,6 +26,8 @@ struct ViewTargets {
   bool inputIsTarget = false;  // colorInput is `target0` itself
   TargetImage target0;         // colour, or radiance
   TargetImage target1;         // transmittance
+  TargetImage shadowMap;       // the engine's, with all its cascades
+  LightShadow lightShadow;     // where it lies
 };
 
 // Volumes of the context in plan order of index, with the views of the engine's field images.
@@ -40,6 +43,7 @@ struct RecordInput {
   std::span<const RecordVolume> volumes;  // by PlannedVolume::index
   VkImageView dummy2d = VK_NULL_HANDLE;
   VkImageView dummy3d = VK_NULL_HANDLE;
+  VkImageView dummyArray = VK_NULL_HANDLE;  // of layers
   uint64_t frameIndex = 0;
   uint32_t slot = 0;
 };

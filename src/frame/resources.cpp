@@ -62,7 +62,7 @@ VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t vol
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, slots * (6 * volumes + 2)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, slots * (8 * volumes + 3)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, slots * (3 * volumes + 4)},
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, slots * (23 * volumes + 7)}};
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, slots * (23 * volumes + 8)}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.maxSets = sets;
   info.poolSizeCount = static_cast<uint32_t>(sizes.size());
@@ -223,8 +223,10 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
       v.ground = sky && (view.info.layers & WLK_LAYER_GROUND) != 0;
       v.multiple = quality.multipleSky && lights > 0;
       const bool open = v.multiple && sky && !fog;
-      for (const bool shadows : {false, quality.volumeShadows && v.volumes && lights > 0}) {
-        v.shadows = shadows;
+      const uint32_t kinds = (quality.volumeShadows && v.volumes && lights > 0 ? 1U : 0U) |
+                             (quality.lightShadows && lights > 0 ? 2U : 0U);
+      for (uint32_t shadows = 0; shadows <= kinds; ++shadows) {
+        v.shadows = shadows & kinds;
         v.space = v.allLight = false;
         pipelines.prepare(compositeKey(view.info, v));
         v.space = v.multiple && features.space;
@@ -352,7 +354,7 @@ vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& v)
   key.constants[9] = v.multiple && v.lights > 0 && (v.air > 0 || v.fog);
   key.constants[10] = v.space && key.constants[9] != 0;
   key.constants[11] = v.allLight && key.constants[9] != 0;
-  key.constants[12] = v.shadows && v.lights > 0;
+  key.constants[12] = v.lights > 0 && (v.air > 0 || v.fog) ? v.shadows : 0;
   return key;
 }
 

@@ -69,7 +69,8 @@ struct CompositeVariant {
   uint32_t lights;  // Plan::lightCount
   bool volumes, depth;
   uint32_t disk;  // Plan::diskKind
-  bool ground, multiple, space, allLight, shadows;
+  bool ground, multiple, space, allLight;
+  uint32_t shadows;  // Plan::shadowKind
 };
 vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& variant);
 

@@ -320,6 +320,8 @@ struct ViewResources {
   bool rendered = false;  // `readback` holds a picture
   vk::Image depth;
   vk::Image color;
+  vk::Image shadowDepth;  // layers of a shadow map, made when one is given
+  vk::Buffer shadowUpload;
   vk::Image target0;
   vk::Image target1;
   vk::Buffer upload;

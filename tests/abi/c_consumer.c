@@ -253,6 +253,7 @@ static void deviceFunctions(WlkContext context) {
   WlkFrameStats stats;
   WlkVulkanRequirements requirements;
   WlkVulkanViewTargets targets;
+  WlkLightShadow shadow;
   WlkView view = {0};
   WlkVolume volume = {0};
   uint32_t passCount = 0;
@@ -268,6 +269,9 @@ static void deviceFunctions(WlkContext context) {
   INIT(WLK_STRUCT_IMAGE_DATA, image);
   INIT(WLK_STRUCT_FRAME_STATS, stats);
   INIT(WLK_STRUCT_VULKAN_VIEW_TARGETS, targets);
+  INIT(WLK_STRUCT_LIGHT_SHADOW, shadow);
+  REQUIRE(shadow.cascadeCount == 1 && shadow.clipFromWorld[3][15] == 1.0f);
+  targets.lightShadow = &shadow;
   frame.frameIndex = 1;
   EXPECT(WLK_ERROR_WRONG_STATE, wlkPrepare(context));
   EXPECT(WLK_ERROR_WRONG_STATE, wlkBeginFrame(context, &frame));

@@ -72,7 +72,7 @@ WlkVulkanImage Image::imported(const WlkVulkanImageState& before,
   image.format = format();
   image.width = extent().width;
   image.height = extent().height;
-  image.depth = extent().depth;
+  image.depth = extent().depth * layers();
   image.before = before;
   image.after = after;
   return image;
@@ -90,7 +90,7 @@ void Image::transition(VkCommandBuffer commands, const WlkVulkanImageState& from
   barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   barrier.image = handle();
-  barrier.subresourceRange = {aspects(format()), 0, 1, 0, 1};
+  barrier.subresourceRange = {aspects(format()), 0, 1, 0, layers()};
   VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
   info.imageMemoryBarrierCount = 1;
   info.pImageMemoryBarriers = &barrier;
@@ -101,7 +101,7 @@ VkBufferImageCopy Image::wholeImage() const {
   const VkImageAspectFlags aspect =
       aspects(format()) & ~VkImageAspectFlags{VK_IMAGE_ASPECT_STENCIL_BIT};
   VkBufferImageCopy region{};
-  region.imageSubresource = {aspect, 0, 0, 1};
+  region.imageSubresource = {aspect, 0, 0, layers()};
   region.imageExtent = extent();
   return region;
 }

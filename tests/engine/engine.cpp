@@ -47,9 +47,10 @@ uint32_t targetFormatOf(VkFormat format) {
 }
 
 Shot::Attachment::Attachment(const Device& device, VkFormat format, VkExtent2D extent,
-                             VkImageUsageFlags usage, const std::vector<float>& values)
-    : image(device, format, {extent.width, extent.height, 1}, usage),
-      input(device, VkDeviceSize{extent.width} * extent.height * texelBytes(format)),
+                             VkImageUsageFlags usage, const std::vector<float>& values,
+                             uint32_t layers)
+    : image(device, format, {extent.width, extent.height, 1}, usage, layers),
+      input(device, VkDeviceSize{extent.width} * extent.height * layers * texelBytes(format)),
       output(device, input.size()) {
   if (!values.empty()) {
     const std::vector<unsigned char> bytes = encode(format, values);
@@ -62,12 +63,18 @@ std::vector<float> Shot::Attachment::values() const {
 }
 
 Shot::Shot(const Device& device, const Request& request) : request_(request) {
+  const auto usage = [](VkFormat format) -> VkImageUsageFlags {
+    return format == VK_FORMAT_R32_SFLOAT
+               ? VK_IMAGE_USAGE_SAMPLED_BIT
+               : VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+  };
   if (!request.depth.empty()) {
-    depth_.emplace(device, request.depthFormat, request.extent,
-                   request.depthFormat == VK_FORMAT_R32_SFLOAT
-                       ? VK_IMAGE_USAGE_SAMPLED_BIT
-                       : VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+    depth_.emplace(device, request.depthFormat, request.extent, usage(request.depthFormat),
                    request.depth);
+  }
+  if (!request.shadowMap.empty()) {
+    shadow_.emplace(device, request.shadowFormat, request.shadowExtent, usage(request.shadowFormat),
+                    request.shadowMap, request.lightShadow.cascadeCount);
   }
   color_.emplace(device, request.format, request.extent, colorUsage(request), request.color);
   if (request.composite == WLK_COMPOSITE_COMPUTE && !request.inPlace) {
@@ -90,6 +97,13 @@ void Shot::record(VkCommandBuffer commands, WlkContext context) const {
     depth = depth_->image.imported(COPY_TARGET, COPY_SOURCE);
     targets.depth = &depth;
   }
+  WlkVulkanImage shadowMap{};
+  if (shadow_) {
+    shadow_->image.write(commands, shadow_->input);
+    shadowMap = shadow_->image.imported(COPY_TARGET, COPY_SOURCE);
+    targets.lightShadow = &request_.lightShadow;
+    targets.shadowMap = &shadowMap;
+  }
   color_->image.write(commands, color_->input);
   const WlkVulkanImage color = color_->image.imported(COPY_TARGET, COPY_SOURCE);
   if (request_.composite == WLK_COMPOSITE_SEPARATE) {
@@ -104,7 +118,8 @@ void Shot::record(VkCommandBuffer commands, WlkContext context) const {
     targets.color = &output;
     check(wlkVulkanCmdRenderView(context, commands, request_.view, &targets));
   }
-  for (const auto* attachment : {&depth_, &color_, &target_, &radiance_, &transmittance_}) {
+  for (const auto* attachment :
+       {&depth_, &shadow_, &color_, &target_, &radiance_, &transmittance_}) {
     if (*attachment) {
       (*attachment)->read(commands);
     }
@@ -136,7 +151,8 @@ Result Shot::result() const {
 }
 
 void Shot::forget(WlkContext context) const {
-  for (const auto* attachment : {&depth_, &color_, &target_, &radiance_, &transmittance_}) {
+  for (const auto* attachment :
+       {&depth_, &shadow_, &color_, &target_, &radiance_, &transmittance_}) {
     if (*attachment) {
       check(wlkVulkanForgetImage(context, (*attachment)->image.handle()));
     }

@@ -20,6 +20,11 @@ struct Request {
   bool inPlace = true;       // COMPUTE: colorInput == color
   std::vector<float> color;  // RGBA
   std::vector<float> depth;  // device depth; empty: no depth image
+  // A shadow map, layer after layer; empty: none.
+  WlkLightShadow lightShadow{};
+  std::vector<float> shadowMap;
+  VkExtent2D shadowExtent{};
+  VkFormat shadowFormat = VK_FORMAT_D32_SFLOAT;
 };
 
 // What the images hold afterwards, decoded.
@@ -48,7 +53,7 @@ class Shot {
     Buffer input;
     Buffer output;
     Attachment(const Device& device, VkFormat format, VkExtent2D extent, VkImageUsageFlags usage,
-               const std::vector<float>& values);
+               const std::vector<float>& values, uint32_t layers = 1);
     void read(VkCommandBuffer commands) const { image.read(commands, output); }
     std::vector<float> values() const;
   };
@@ -56,6 +61,7 @@ class Shot {
 
   Request request_;
   std::optional<Attachment> depth_;
+  std::optional<Attachment> shadow_;
   std::optional<Attachment> color_;   // the engine's picture
   std::optional<Attachment> target_;  // COMPUTE that is not in place
   std::optional<Attachment> radiance_;

@@ -166,8 +166,9 @@ Scene makeScene(WlkContext context, bool upload) {
   return scene;
 }
 
-void setQuality(WlkContext context, WlkView view) {
+void setQuality(WlkContext context, WlkView view, uint64_t flags) {
   auto quality = make<WlkQuality>();
+  quality.flags = flags;
   quality.level = WLK_QUALITY_LOW;
   quality.sliceCount = 24;
   quality.batchSize = 8;
@@ -175,20 +176,21 @@ void setQuality(WlkContext context, WlkView view) {
   check(wlkSetQuality(context, view, &quality));
 }
 
-Headless::Headless(uint32_t width, uint32_t height)
+Headless::Headless(uint32_t width, uint32_t height, uint64_t qualityFlags)
     : width_(width), height_(height), context_(makeHeadless()), scene_(makeScene(context_)) {
   auto info = make<WlkViewInfo>();
   info.width = width;
   info.height = height;
   view_ = welkin::View(context_, info);
-  setQuality(context_, view_);
+  setQuality(context_, view_, qualityFlags);
   check(wlkPrepare(context_));
 }
 
 std::vector<float> Headless::render(const WlkCamera& camera, const std::vector<float>& color,
-                                    const std::vector<float>& depth) {
+                                    const std::vector<float>& depth,
+                                    const WlkHeadlessTargets* shadow) {
   check(wlkSetCamera(context_, view_, &camera));
-  auto targets = make<WlkHeadlessTargets>();
+  auto targets = shadow != nullptr ? *shadow : make<WlkHeadlessTargets>();
   targets.color = color.empty() ? nullptr : color.data();
   targets.depth = depth.empty() ? nullptr : depth.data();
   check(wlkRenderHeadless(context_, view_, &targets));

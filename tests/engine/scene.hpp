@@ -54,15 +54,17 @@ struct Scene {
 Scene makeScene(WlkContext context, bool upload = true);
 void uploadCloud(WlkContext context, WlkVolume cloud, const std::vector<float>& values);
 // Few slices: the tests compare pictures with each other, not with the truth.
-void setQuality(WlkContext context, WlkView view);
+void setQuality(WlkContext context, WlkView view, uint64_t flags = 0);
 
 // A headless context with the scene and one view.
 class Headless {
  public:
-  Headless(uint32_t width, uint32_t height);
-  // RGBA of colour and depth (either may be empty) with the scene in front.
+  Headless(uint32_t width, uint32_t height, uint64_t qualityFlags = 0);
+  // RGBA of colour and depth (either may be empty) with the scene in front. `shadow`: whose shadow
+  // map to take.
   std::vector<float> render(const WlkCamera& camera, const std::vector<float>& color,
-                            const std::vector<float>& depth);
+                            const std::vector<float>& depth,
+                            const WlkHeadlessTargets* shadow = nullptr);
   WlkContext context() const { return context_; }
   WlkVolume cloud() const { return scene_.cloud; }
 

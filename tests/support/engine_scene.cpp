@@ -54,6 +54,8 @@ WlkVulkanViewTargets EngineScene::targets(const WlkVulkanImage& color) const {
   auto made = make<WlkVulkanViewTargets>();
   made.color = &color;
   made.colorInput = inPlace ? &color : nullptr;
+  made.lightShadow = lightShadow;
+  made.shadowMap = shadowMap;
   return made;
 }
 

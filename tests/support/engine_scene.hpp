@@ -33,6 +33,9 @@ class EngineScene : private SpiedEngine, public SceneBuilder {
   uint64_t frame() const { return frame_; }
   // Composites onto the target itself, which keeps what it has where nothing is drawn.
   bool inPlace = false;
+  // A shadow map of the engine; both or none.
+  const WlkLightShadow* lightShadow = nullptr;
+  const WlkVulkanImage* shadowMap = nullptr;
 
   WlkVulkanImage describe(const SpyImage& image, VkImageLayout layout) const;
   // What the frame's wlkVulkanCmdRenderView gets; `color` must live for the call.

@@ -237,14 +237,15 @@ Buffer::~Buffer() {
   vkFreeMemory(device_.handle(), memory_, nullptr);
 }
 
-Image::Image(const TestDevice& device, VkFormat format, VkExtent3D extent, VkImageUsageFlags usage)
-    : device_(device), format_(format), extent_(extent) {
+Image::Image(const TestDevice& device, VkFormat format, VkExtent3D extent, VkImageUsageFlags usage,
+             uint32_t layers)
+    : device_(device), format_(format), extent_(extent), layers_(layers) {
   VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
   info.imageType = extent.depth > 1 ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D;
   info.format = format;
   info.extent = extent;
   info.mipLevels = 1;
-  info.arrayLayers = 1;
+  info.arrayLayers = layers;
   info.samples = VK_SAMPLE_COUNT_1_BIT;
   info.usage = usage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   check(vkCreateImage(device.handle(), &info, nullptr, &image_), "vkCreateImage");

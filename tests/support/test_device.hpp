@@ -103,18 +103,21 @@ class Buffer {
 class Image {
  public:
   // depth > 1 makes a 3-D image. Transfer usages are added to `usage`.
-  Image(const TestDevice& device, VkFormat format, VkExtent3D extent, VkImageUsageFlags usage);
+  Image(const TestDevice& device, VkFormat format, VkExtent3D extent, VkImageUsageFlags usage,
+        uint32_t layers = 1);
   ~Image();
   Image(const Image&) = delete;
   Image& operator=(const Image&) = delete;
   VkImage handle() const { return image_; }
   VkFormat format() const { return format_; }
   VkExtent3D extent() const { return extent_; }
+  uint32_t layers() const { return layers_; }
 
  private:
   const TestDevice& device_;
   VkFormat format_;
   VkExtent3D extent_;
+  uint32_t layers_;
   VkImage image_ = VK_NULL_HANDLE;
   VkDeviceMemory memory_ = VK_NULL_HANDLE;
 };
