@@ -8,7 +8,8 @@ namespace welkin {
 namespace {
 
 // Parts of a volume's bricks in which a sample may be above 0: under the first its rays leap, over
-// the second no longer. Measured: docs/accuracy-and-performance.md, sparse volumes.
+// the second no longer. A leap is one more fetch per stretch; far apart, so that contents that
+// change do not have every wlkPrepare make other pipelines.
 constexpr double LEAPS_BELOW = 0.4;
 constexpr double LEAPS_NO_MORE = 0.8;
 
