@@ -7,7 +7,7 @@
 const real CANONICAL_THINNEST = real(0.0625f);  // outside, the limits are followed
 const real CANONICAL_THICKEST = real(128.0f);
 const real CANONICAL_COSINE = real(0.01);  // least of a direction
-const real CANONICAL_FACE = real(0.4);     // depth below a face where nodes begin to spread
+const real CANONICAL_FACE = real(0.1);     // depth below a face where nodes begin to spread
 
 // [0, 1] for t between the thinnest and the thickest.
 real canonicalThickness(real t) {
