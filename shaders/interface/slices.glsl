@@ -24,6 +24,8 @@ struct VolumeUniforms {
   vec4 ambientScale;     // the same of the grid for the light of sky and ground
   vec4 ambientOffset;
   vec4 ambientEnd;
+  // 4 pi times the phase function twice, mean of the colours, at scattering angles i / 31 pi.
+  vec4 pairShape[8];
   vec4 forwardFraction[32];  // F(n) per depth node; component = field
 };
 

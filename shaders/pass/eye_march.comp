@@ -153,7 +153,9 @@ void main() {
     float keep = TRANSPORT ? volume.texelOrigin.w : 1.0f;
     float s = span.begin - nearest;
     float last = span.end - nearest;
-    float dt = max(volume.middle.w, (last - s) / MAX_STEPS);
+    float longest = TRANSPORT ? min(volume.middle.w, gridStep(m.boxStep)) : volume.middle.w;
+    float dt = max(longest, (last - s) / MAX_STEPS);
+    float shape = TRANSPORT ? pairShape(dot(direction, frame.lights[0].direction.xyz)) : 1.0f;
     float first = floor(s / dt) + 1.0f;  // the stretch's far end, in steps
     float eyeDepth = 0.0f;
     float through = 1.0f;
@@ -194,7 +196,7 @@ void main() {
           ends[i] = farEnd;
         }
         if (TRANSPORT) {
-          source += gridAt(m.box + middle * m.boxStep).xyz * (through - passed);
+          source += gridSource(m.box + middle * m.boxStep, shape) * (through - passed);
         }
         end = far;
         sum += source * air.light * air.transmittance;

@@ -92,7 +92,8 @@ float gridDepth(vec3 origin, vec3 step_, float begin, float end) {
   float sum = 0.0f;
   int i = 0;
   do {
-    sum += gridAt(origin + (begin + (float(i) + 0.5f) * dt) * step_).w;
+    sum += textureLod(viewSource, gridPlace(origin + (begin + (float(i) + 0.5f) * dt) * step_),
+                      0.0f).w;
     i += 1;
   } while (i < STEPS);
   return sum * dt;
@@ -159,7 +160,9 @@ void main() {
     float dt = max(stop - t, 0.0f) / float(left);
     uint guard = 0u;
     float eyeDepth = 0.0f;
+    float shape = 1.0f;
     if (TRANSPORT) {
+      shape = pairShape(dot(direction, frame.lights[0].direction.xyz));
       // Rays against the light come to what is nearer in later batches.
       float before = -log(max(state.w, 1.0e-20f));
       if (rate < 0.0f) {
@@ -185,7 +188,7 @@ void main() {
         vec2 light = textureLod(lightBuffer, at, 0.0f).xy;
         source = scatteredLight(extinction, single, light, angle, eyeDepth + 0.5f * beta * dt);
         if (TRANSPORT) {
-          vec3 more = gridAt(boxOrigin + middle * boxStep).xyz;
+          vec3 more = gridSource(boxOrigin + middle * boxStep, shape);
           source += more * (beta * volume.texelOrigin.w);
         }
         source *= air.light;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What each cell scatters towards the eye of light scattered before, 1/sr per unit irradiance, and
 // its extinction (1/m):
-// light scattered once and twice by products of phase functions, the rest by its harmonics.
+// light scattered once and twice by products of phase functions, over pairShape, and the rest, by
+// its harmonics, in the second half of the image.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "transport.glsl"
@@ -11,6 +12,9 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 7, std430) readonly buffer Pairs { vec4 pairs[]; };
 layout(set = 0, binding = 8, rgba32f) uniform writeonly image3D viewSource;
 layout(set = 0, binding = 9, std140) uniform View { VolumeUniforms view; };
+
+#define PAIR_SHAPE view.pairShape
+#include "pair_shape.glsl"
 
 vec3 pair(int function, float x) {
   int node = min(int(x), PAIR_TABLE_NODES - 2);
@@ -107,15 +111,20 @@ void main() {
           (y * kept[sourceAt(0, 11, cell)] + x * kept[sourceAt(0, 13, cell)]);
   rest += 1.3228757f * z * (5.0f * z * z - 3.0f) * kept[sourceAt(0, 12, cell)];
 
-  vec3 source = max(first + vec3(rest), vec3(0.0f)) * 0.0795774715f;
+  // Where one of the two is negative, by rounding of what is sharp, the other makes up for it.
+  vec3 few = max(first + min(rest, 0.0f), vec3(0.0f)) * 0.0795774715f;
+  vec3 many = max(vec3(rest) + min(first, vec3(0.0f)), vec3(0.0f)) * 0.0795774715f;
+  few /= pairShape(towards);
   // Filters read the cell after the last one, too, with weight 0 or nearly so: what stands there
   // may be of another volume or no number.
-  ivec3 more = min(ivec3(equal(place + 1, size)), imageSize(viewSource) - size);
+  ivec3 room = imageSize(viewSource) / ivec3(1, 1, 2);
+  ivec3 more = min(ivec3(equal(place + 1, size)), room - size);
   for (int k = 0; k <= more.z; ++k) {
     for (int j = 0; j <= more.y; ++j) {
       for (int i = 0; i <= more.x; ++i) {
-        imageStore(viewSource, place + ivec3(i, j, k),
-                   vec4(source, kept[extinctionAt(0, cell)]));
+        ivec3 at = place + ivec3(i, j, k);
+        imageStore(viewSource, at, vec4(few, kept[extinctionAt(0, cell)]));
+        imageStore(viewSource, at + ivec3(0, 0, room.z), vec4(many, 0.0f));
       }
     }
   }

@@ -13,12 +13,27 @@ vec3 fieldSource(uint field, float depth, float angle) {
   return exp(logFieldSource(field, depth, angle));
 }
 
-// What the light's grid holds at a position in the unit box: source (1/sr per unit irradiance) and
-// extinction without the peak (1/m).
-vec4 gridAt(vec3 box) {
+#define PAIR_SHAPE volume.pairShape
+#include "pair_shape.glsl"
+
+// Where the light's grid holds a position in the unit box: in its image's first half source over
+// pairShape (1/sr per unit irradiance) and extinction without the peak (1/m), in the second the
+// source that goes with no shape.
+vec3 gridPlace(vec3 box) {
   vec3 cell = box * volume.gridScale.xyz + volume.gridOffset.xyz;
-  cell = clamp(cell, vec3(0.5f), volume.gridEnd.xyz) * volume.gridEnd.w;
-  return textureLod(viewSource, cell, 0.0f);
+  return clamp(cell, vec3(0.5f), volume.gridEnd.xyz) * (volume.gridEnd.w * vec3(1.0f, 1.0f, 0.5f));
+}
+
+vec3 gridSource(vec3 box, float shape) {
+  vec3 place = gridPlace(box);
+  return shape * textureLod(viewSource, place, 0.0f).xyz +
+         textureLod(viewSource, place + vec3(0.0f, 0.0f, 0.5f), 0.0f).xyz;
+}
+
+// Longest step of a ray, half a cell: slices of a layer lie far apart where light comes from aside.
+float gridStep(vec3 boxStep) {
+  vec3 cells = abs(boxStep * volume.gridScale.xyz);  // per m
+  return 0.5f / max(max(cells.x, cells.y), max(cells.z, 1.0e-20f));
 }
 
 // Light of sky and ground that is scattered towards the eye, as radiance.

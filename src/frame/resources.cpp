@@ -151,7 +151,7 @@ void makeTransport(vk::Device& device, const SliceQuality& quality, uint32_t vol
   info.type = VK_IMAGE_TYPE_3D;
   info.format = VK_FORMAT_R32G32B32A32_SFLOAT;
   const uint32_t edge = transportImageEdge(quality.transportCells);
-  info.extent = {edge, edge, edge};
+  info.extent = {edge, edge, 2 * edge};  // light that goes with pairShape, and the rest
   info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
   r.viewSource = vk::Image(device, info);
 }

@@ -44,20 +44,6 @@ std::vector<double> fieldWeights(const VolumeState& volume) {
   return weights;
 }
 
-// Mean over the colours of a function of the pair table.
-double pairValue(const TransportMedia& media, size_t function, double angle) {
-  constexpr size_t LAST = interface_::PAIR_TABLE_NODES - 1;
-  const double at = angle / std::numbers::pi * static_cast<double>(LAST);
-  const size_t node = std::min(static_cast<size_t>(at), LAST - 1);
-  const double part = at - static_cast<double>(node);
-  const float* row = &media.response[(function * (LAST + 1) + node) * 4];
-  double sum = 0;
-  for (size_t c = 0; c < RGB; ++c) {
-    sum += (1 - part) * static_cast<double>(row[c]) + part * static_cast<double>(row[4 + c]);
-  }
-  return sum / RGB;
-}
-
 // Rows of TransportUniforms::directed for direction w.
 void fillDirected(const TransportMedia& media, const glm::dvec3& w, const glm::dvec3& x,
                   const glm::dvec3& y, const glm::dvec3& travel, glm::vec4* rows) {
@@ -65,7 +51,7 @@ void fillDirected(const TransportMedia& media, const glm::dvec3& w, const glm::d
   const double azimuth = std::atan2(glm::dot(w, y), glm::dot(w, x));
   std::array<double, 6> f{};
   for (size_t i = 0; i < f.size(); ++i) {
-    f[i] = pairValue(media, i, angle);
+    f[i] = transportPair(media, i, angle);
   }
   const double cos1 = std::cos(azimuth);
   const double sin1 = std::sin(azimuth);
@@ -129,7 +115,7 @@ TransportFan layerFan(const TransportMedia& media, const glm::dmat3& box,
     fan.fine[d] = layer.weight[d];
     fillHarmonics(layer.local[d], &out.rows[d * 4]);
     const double cosine = std::clamp(glm::dot(layer.local[d], layer.travel), -1.0, 1.0);
-    twice[d] = std::max(pairValue(media, 0, std::acos(cosine)), 1e-6);
+    twice[d] = std::max(transportPair(media, 0, std::acos(cosine)), 1e-6);
   }
   for (size_t i = 0; i < 3; ++i) {
     out.lightFrame[i] = glm::vec4(glm::vec3(layer.frame[i]), 0);
@@ -140,6 +126,19 @@ TransportFan layerFan(const TransportMedia& media, const glm::dmat3& box,
 }
 
 }  // namespace
+
+double transportPair(const TransportMedia& media, size_t function, double angle) {
+  constexpr size_t LAST = interface_::PAIR_TABLE_NODES - 1;
+  const double at = angle / std::numbers::pi * static_cast<double>(LAST);
+  const size_t node = std::min(static_cast<size_t>(at), LAST - 1);
+  const double part = at - static_cast<double>(node);
+  const float* row = &media.response[(function * (LAST + 1) + node) * 4];
+  double sum = 0;
+  for (size_t c = 0; c < RGB; ++c) {
+    sum += (1 - part) * static_cast<double>(row[c]) + part * static_cast<double>(row[4 + c]);
+  }
+  return sum / RGB;
+}
 
 uint32_t transportImageEdge(uint32_t edge) {
   return edge + edge / 2;

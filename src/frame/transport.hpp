@@ -43,6 +43,8 @@ struct TransportMedia {
   std::vector<float> response;  // RGBA, see PAIR_TABLE_NODES
 };
 TransportMedia transportMedia(const VolumeState& volume);
+// Mean over the colours of a function of the pair table at a scattering angle.
+double transportPair(const TransportMedia& media, size_t function, double angle);
 
 // Extinction (1/m) at value 1; 0 without an image.
 float extinctionAtOne(const FieldState& field);

@@ -235,6 +235,10 @@ void fillVolume(const VolumeState& volume, const PlannedVolume& planned, const g
     out.gridScale = grid.scale;
     out.gridOffset = grid.offset;
     out.gridEnd = grid.end;
+    for (int i = 0; i < 32; ++i) {
+      out.pairShape[i / 4][i % 4] =
+          static_cast<float>(transportPair(*volume.transport, 0, std::numbers::pi * i / 31.0));
+    }
   }
   if (planned.ambient) {
     const GridPlace grid =
