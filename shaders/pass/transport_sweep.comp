@@ -10,6 +10,18 @@
 
 layout(local_size_x = 64) in;
 
+// What leaves a slab of optical depth t, of 1 / t emitted per depth in the mean, by a beam of which
+// a part e^-|a| passes the slab along the ray, or against it (a < 0): integral of e^(-a x - t (1 -
+// x)) over x in (0, 1), over that of e^(-a x).
+float ofBeam(float t, float a) {
+  float b = abs(a);
+  float passed = b > 1.0e-3f ? (1.0f - exp(-min(b, 80.0f))) / b : 1.0f - 0.5f * b;
+  float along = abs(t - b);
+  float both = a > 0.0f ? along : t + b;
+  float mean = both > 1.0e-3f ? (1.0f - exp(-min(both, 80.0f))) / both : 1.0f - 0.5f * both;
+  return mean * (a > 0.0f ? exp(-min(min(t, b), 80.0f)) : 1.0f) / passed;
+}
+
 // Of the ray in one slice of cells: source (radiance), extinction (1/m).
 struct Slice {
   float source;
@@ -37,6 +49,12 @@ void main() {
   Slice before = Slice(0.0f, 0.0f);
   Slice here = before;
   float begun = 0.0f;  // share of a slice's path, inside the slab before its slice
+  bool enteredHere = true;
+  // Of a layer, of light scattered once: the beam's path through a slice, against rays negative.
+  float beam = 0.0f;
+  if (first && isLayer() && d.axes.x == volume.light.axes.x) {
+    beam = volume.light.step_.z * float(2 << level) * float(d.axes.w * volume.light.axes.w);
+  }
   int k = 0;
   do {
     Slice next = here;
@@ -72,21 +90,27 @@ void main() {
     if (k > 0) {
       Slice after = s.enters ? here : next;
       float share = begun + (s.enters ? 1.0f - s.share : 0.5f);
-      float near = 2.0f * here.beta + before.beta + after.beta;
+      float near = (enteredHere ? 0.0f : here.beta + before.beta) +
+                   (s.enters ? 0.0f : here.beta + after.beta);
       float slope = near > 0.0f ? 2.0f * here.beta * (after.source - before.source) / near : 0.0f;
       slope = share * clamp(slope, -2.0f * abs(here.source), 2.0f * abs(here.source));
       float t = here.beta * share * d.step_.z;
       float e = exp(-min(t, 80.0f));
       vec2 weights = slabWeights(t, e);
-      float leaves = radiance * e + here.source * (1.0f - e) + slope * weights.y;
-      float mean = radiance * weights.x + here.source * (1.0f - weights.x) -
-                   slope * (t > 0.0f ? weights.y / t : 0.0f);
+      float added = here.source * (1.0f - e) + slope * weights.y;
+      if (beam != 0.0f) {
+        added = here.source * t * ofBeam(t, here.beta * share * beam);
+      }
+      float leaves = radiance * e + added;
+      float mean = radiance * weights.x +
+                   (t > 1.0e-3f ? here.source - added / t : here.source * (1.0f - weights.x));
       work[radianceAt(level, direction, (k - 1) * count.x * count.y + ray)] = mean;
       radiance = leaves;
     }
     before = here;
     here = next;
     begun = 0.5f;
+    enteredHere = s.enters;
     if (s.enters) {
       radiance = 0.0f;
       before = here;
