@@ -11,6 +11,9 @@ const int TERMS = 2 * FIRST_TERMS + TRANSPORT_TERMS;
 // Errors of first order would ask for a step of 1, of second order for 1/3.
 // Step beyond the finest level, in steps from the coarser to it; at most this part of the light.
 const float STEP = 0.5f;
+// Rays of a layer are right on either side of its plane: with optical depths of 2 per cell the
+// light that passes is 4 % short, with a quarter of the difference 5 % too much.
+const float LAYER_STEP = 0.2f;
 const float MOST = 0.9f;
 
 int termAt(int term, int level, int cell) {
@@ -48,7 +51,7 @@ void main() {
       sum += w.x * w.y * w.z * kept[coarseAt(term, index)];
     }
     int own = termAt(term, 0, cell);
-    float change = STEP * (kept[own] - sum);
+    float change = (layer ? LAYER_STEP : STEP) * (kept[own] - sum);
     bool value = layer && term < 2 * FIRST_TERMS && term % FIRST_TERMS < 2 * LAYER_RINGS;
     if (value || term == 0 || term == FIRST_TERMS || term == 2 * FIRST_TERMS) {
       // Means over all directions, which bound the rest, or over those of a ring.
