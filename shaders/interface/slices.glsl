@@ -16,7 +16,7 @@ struct VolumeUniforms {
   vec4 meanAlbedo;       // per field
   vec4 albedo[4];        // per field RGB
   vec4 rect;             // pixels x0, y0, x1, y1 of the eye pass
-  vec4 gridScale;        // unit box to cells of the light grid: scale, offset
+  vec4 gridScale;        // unit box to cells of the light grid: scale (w: 1 in a layer), offset
   vec4 gridOffset;
   vec4 gridEnd;          // last cell's middle; 1 / edge of its image
   vec4 voxels;           // along the axes

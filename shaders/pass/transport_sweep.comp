@@ -49,7 +49,6 @@ void main() {
   Slice before = Slice(0.0f, 0.0f);
   Slice here = before;
   float begun = 0.0f;  // share of a slice's path, inside the slab before its slice
-  bool enteredHere = true;
   // Of a layer, of light scattered once: the beam's path through a slice, against rays negative.
   float beam = 0.0f;
   if (first && isLayer() && d.axes.x == volume.light.axes.x) {
@@ -90,27 +89,26 @@ void main() {
     if (k > 0) {
       Slice after = s.enters ? here : next;
       float share = begun + (s.enters ? 1.0f - s.share : 0.5f);
-      float near = (enteredHere ? 0.0f : here.beta + before.beta) +
-                   (s.enters ? 0.0f : here.beta + after.beta);
+      float near = 2.0f * here.beta + before.beta + after.beta;
       float slope = near > 0.0f ? 2.0f * here.beta * (after.source - before.source) / near : 0.0f;
       slope = share * clamp(slope, -2.0f * abs(here.source), 2.0f * abs(here.source));
       float t = here.beta * share * d.step_.z;
       float e = exp(-min(t, 80.0f));
       vec2 weights = slabWeights(t, e);
-      float added = here.source * (1.0f - e) + slope * weights.y;
+      float leaves = radiance * e + here.source * (1.0f - e) + slope * weights.y;
+      float mean = radiance * weights.x + here.source * (1.0f - weights.x) -
+                   slope * (t > 0.0f ? weights.y / t : 0.0f);
       if (beam != 0.0f) {
-        added = here.source * t * ofBeam(t, here.beta * share * beam);
+        float part = ofBeam(t, here.beta * share * beam);  // of what is emitted
+        leaves = radiance * e + here.source * t * part;
+        mean = radiance * weights.x + here.source * (1.0f - part);
       }
-      float leaves = radiance * e + added;
-      float mean = radiance * weights.x +
-                   (t > 1.0e-3f ? here.source - added / t : here.source * (1.0f - weights.x));
       work[radianceAt(level, direction, (k - 1) * count.x * count.y + ray)] = mean;
       radiance = leaves;
     }
     before = here;
     here = next;
     begun = 0.5f;
-    enteredHere = s.enters;
     if (s.enters) {
       radiance = 0.0f;
       before = here;

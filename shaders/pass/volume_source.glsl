@@ -30,9 +30,10 @@ vec3 gridSource(vec3 box, float shape) {
          textureLod(viewSource, place + vec3(0.0f, 0.0f, 0.5f), 0.0f).xyz;
 }
 
-// Longest step of a ray, half a cell: slices of a layer lie far apart where light comes from aside.
+// Longest step of a ray, in a layer half a cell: its slices lie far apart where light comes from
+// aside.
 float gridStep(vec3 boxStep) {
-  vec3 cells = abs(boxStep * volume.gridScale.xyz);  // per m
+  vec3 cells = abs(boxStep * volume.gridScale.xyz) * volume.gridScale.w;  // per m
   return 0.5f / max(max(cells.x, cells.y), max(cells.z, 1.0e-20f));
 }
 

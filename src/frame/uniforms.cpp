@@ -101,6 +101,7 @@ GridPlace placeGrid(const TransportShape& shape, uint32_t room) {
     grid.offset[i] = static_cast<float>(-shape.origin[i] * cells / shape.size[i]);
     grid.end[i] = static_cast<float>(cells - 0.5);
   }
+  grid.scale.w = shape.layer ? 1.0f : 0.0f;
   grid.end.w = 1.0f / static_cast<float>(transportImageEdge(room));
   return grid;
 }
