@@ -3,12 +3,18 @@
 // transport.glsl: 16-byte rows that its passes share.
 const int AMBIENT_DIRECTIONS = TRANSPORT_COARSE_DIRECTIONS;
 
+// Zenith angles from the world's y axis and azimuths from x to z, in middles of equal parts.
+const int FINE_ZENITHS = 16;
+const int FINE_AZIMUTHS = 16;
+
 struct AmbientUniforms {
   ivec4 size[TRANSPORT_LEVELS];   // cells along the box's axes, and in all
   ivec4 place[TRANSPORT_LEVELS];  // x: first cell of the level in lists that hold all levels
   TransportDirection directions[TRANSPORT_LEVELS * AMBIENT_DIRECTIONS];
   vec4 harmonics[AMBIENT_DIRECTIONS * 4];  // of the directions, in the world's axes
   vec4 incoming[AMBIENT_DIRECTIONS];       // radiance that comes in along each, RGB
+  // What an unshaded cell scatters in each direction by degrees over 3, RGB.
+  vec4 fine[FINE_ZENITHS * FINE_AZIMUTHS];
   vec4 worldFromBox[3];                    // columns, without the translation
   vec4 gridOrigin;                         // of the grid in the unit box, which it may exceed
   vec4 gridSize;
@@ -30,4 +36,5 @@ struct AmbientPush {
 
 const uint AMBIENT_INCOMING = 1u;  // rays come in with the light outside, else with none
 const uint AMBIENT_COARSER = 2u;   // adds the correction of the level below
+const uint AMBIENT_ALONE = 8u;     // light that was not scattered: its share of that outside
 const uint AMBIENT_WHOLE = 4u;     // scatters by the whole phase function, peak included

@@ -22,6 +22,11 @@ int sourceAt(int level, int term, int cell) {
   return total() * (4 + term) + volume.place[level].x + cell;
 }
 
+// Of the finest level: share of the light outside that arrives unscattered.
+int openAt(int cell) {
+  return total() * (4 + TRANSPORT_TERMS) + cell;
+}
+
 // Lists of `work`. Over all levels: what drives the source, the change of the source; of the level
 // in turn: source and radiance in each direction.
 int driveAt(int level, int term, int cell) {

@@ -41,6 +41,14 @@ void main() {
     direction += 1;
   } while (direction < AMBIENT_DIRECTIONS);
 
+  if ((push.flags & AMBIENT_ALONE) != 0u) {
+    vec3 mean = vec3(0.0f);
+    for (int i = 0; i < AMBIENT_DIRECTIONS; ++i) {
+      mean += directionAt(0, i).step_.w * volume.incoming[i].xyz;
+    }
+    kept[openAt(cell)] = vec4(min(sum[0] / max(mean, vec3(1.0e-30f)), vec3(1.0f)), 0.0f);
+    return;
+  }
   // The peak is a part of the whole phase function whose moments are all 1.
   float rest = (push.flags & AMBIENT_WHOLE) != 0u ? volume.peak.x : 1.0f;
   vec3 moments[4];

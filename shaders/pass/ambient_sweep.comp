@@ -61,6 +61,9 @@ void main() {
                      emits.z * work[directedAt(level, direction, cells.z)].xyz +
                      emits.w * work[directedAt(level, direction, cells.w)].xyz) /
                     (emits.x + emits.y + emits.z + emits.w);
+      if ((push.flags & AMBIENT_ALONE) != 0u) {
+        next.source = vec3(0.0f);
+      }
     }
     if (k > 0) {
       Slice after = here;

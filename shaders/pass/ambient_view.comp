@@ -10,6 +10,22 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 7, rgba32f) uniform writeonly image3D viewAmbient;
 layout(set = 0, binding = 8, std140) uniform View { VolumeUniforms view; };
 
+// In direction v, linear between the table's.
+vec3 fineAt(vec3 v) {
+  float zenith = acos(clamp(v.y, -1.0f, 1.0f)) * (float(FINE_ZENITHS) / 3.14159265f) - 0.5f;
+  float azimuth = atan(v.z, abs(v.x) + abs(v.z) > 0.0f ? v.x : 1.0f) *
+                  (0.5f * float(FINE_AZIMUTHS) / 3.14159265f) + 1.5f * float(FINE_AZIMUTHS) - 0.5f;
+  vec2 at = vec2(azimuth, clamp(zenith, 0.0f, float(FINE_ZENITHS - 1)));
+  ivec2 low = ivec2(at);
+  vec2 f = at - vec2(low);
+  int a = low.x % FINE_AZIMUTHS;
+  int b = (low.x + 1) % FINE_AZIMUTHS;
+  int top = low.y * FINE_AZIMUTHS;
+  int under = min(low.y + 1, FINE_ZENITHS - 1) * FINE_AZIMUTHS;
+  return mix(mix(volume.fine[top + a].xyz, volume.fine[top + b].xyz, f.x),
+             mix(volume.fine[under + a].xyz, volume.fine[under + b].xyz, f.x), f.y);
+}
+
 vec3 term(int cell, int number) {
   return kept[sourceAt(0, number, cell)].xyz;
 }
@@ -38,6 +54,7 @@ void main() {
   sum += 10.2469508f * (x * y * z * term(cell, 10) + 0.5f * z * (x * x - y * y) * term(cell, 14));
   sum += 1.6201852f * (5.0f * z * z - 1.0f) * (y * term(cell, 11) + x * term(cell, 13));
   sum += 1.3228757f * z * (5.0f * z * z - 3.0f) * term(cell, 12);
+  sum += fineAt(v) * kept[openAt(cell)].xyz;
   vec4 source = vec4(max(sum, vec3(0.0f)), 0.0f);
   // Filters read the cell after the last one, too, with weight 0 or nearly so: what stands there
   // may be of another volume or no number.

@@ -122,8 +122,7 @@ std::vector<AmbientSample> givenSamples(const WlkAmbient& given, const glm::dvec
   return samples;
 }
 
-AmbientLight lightOn(const WlkContext_T& c, const VolumeState& volume,
-                     const TransportShape& shape) {
+std::vector<AmbientSample> samplesOn(const WlkContext_T& c, const VolumeState& volume) {
   constexpr double FARTHEST = 1e9;  // m, as positions of queries
   glm::dvec3 middle = middleOf(volume);
   if (!(glm::length(middle) <= FARTHEST)) {
@@ -131,8 +130,7 @@ AmbientLight lightOn(const WlkContext_T& c, const VolumeState& volume,
   }
   const PlanetFrame place = planetFrameAt(c.air.planet, middle);
   const bool given = c.air.ambient.mode == WLK_AMBIENT_GIVEN;
-  return ambientThrough(glm::dmat3(volume.worldFromBox), shape,
-                        given ? givenSamples(c.air.ambient, place.up) : skySamples(c, place));
+  return given ? givenSamples(c.air.ambient, place.up) : skySamples(c, place);
 }
 
 }  // namespace
@@ -145,11 +143,15 @@ void planAmbient(WlkContext_T& c, ViewState& view) {
     VolumeState& volume = *c.volumes.find(planned.id);
     const TransportShape shape = transportShape(volume, view.plan.quality.ambientCells);
     std::vector<char> key = keyOf(c, volume, shape.thinAxis);
-    if (key != volume.ambient.key) {
-      volume.ambient.light = lightOn(c, volume, shape);
-      volume.ambient.key = std::move(key);
+    const bool whole = planned.ambientWhole;
+    VolumeAmbient& ambient = volume.ambient[whole ? 1 : 0];
+    if (key != ambient.key) {
+      const std::vector<AmbientSample> samples = samplesOn(c, volume);
+      ambient.light = ambientThrough(glm::dmat3(volume.worldFromBox), shape, samples);
+      ambient.fine = ambientFine(*volume.transport, samples, whole);
+      ambient.key = std::move(key);
     }
-    if (dark(volume.ambient.light) && !view.plan.quality.noSkip) {
+    if (dark(ambient.light) && !view.plan.quality.noSkip) {
       planned.ambient = false;
       planned.ambientReason = WLK_REASON_NO_LIGHT;
     }

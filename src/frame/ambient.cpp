@@ -11,6 +11,7 @@ namespace welkin {
 namespace {
 
 constexpr size_t DIRECTIONS = interface_::AMBIENT_DIRECTIONS;
+static_assert(interface_::FINE_ZENITHS * interface_::FINE_AZIMUTHS == 256);
 static_assert(DIRECTIONS == AMBIENT_LIGHT_DIRECTIONS);
 constexpr size_t TERMS = interface_::TRANSPORT_TERMS;
 constexpr int LEVELS = interface_::TRANSPORT_LEVELS;
@@ -78,6 +79,55 @@ AmbientLight ambientThrough(const glm::dmat3& box, const TransportShape& shape,
   return result;
 }
 
+AmbientFine ambientFine(const TransportMedia& media, std::span<const AmbientSample> samples,
+                        bool whole) {
+  std::array<glm::dvec3, FINE_NODES> kernel{};
+  double whole_sr = 0;
+  glm::dvec3 mean(0);
+  for (const AmbientSample& sample : samples) {
+    mean += sample.solidAngle * sample.radiance;
+    whole_sr += sample.solidAngle;
+  }
+  mean /= std::max(whole_sr, 1e-30);
+  if (whole) {
+    // e^(k (cos - 1)) over its integral 2 pi / k.
+    for (size_t n = 0; n < FINE_NODES; ++n) {
+      const double half = static_cast<double>(n) / (FINE_NODES - 1);
+      kernel[n] =
+          glm::dvec3(SHARPNESS / (2 * std::numbers::pi) * std::exp(-2 * SHARPNESS * half * half));
+    }
+    removeLowDegrees(kernel);
+  }
+  for (size_t n = 0; n < FINE_NODES; ++n) {
+    kernel[n] = whole ? media.peak * kernel[n] + (1 - media.peak) * media.fineKernel[n]
+                      : media.fineKernel[n];
+  }
+  AmbientFine fine{};
+  for (int row = 0; row < interface_::FINE_ZENITHS; ++row) {
+    const double zenith = (row + 0.5) / interface_::FINE_ZENITHS * std::numbers::pi;
+    for (int column = 0; column < interface_::FINE_AZIMUTHS; ++column) {
+      const double azimuth =
+          (2 * column + 1.0) / interface_::FINE_AZIMUTHS * std::numbers::pi - std::numbers::pi;
+      const glm::dvec3 v(std::sin(zenith) * std::cos(azimuth), std::cos(zenith),
+                         std::sin(zenith) * std::sin(azimuth));
+      glm::dvec3 sum(0);
+      for (const AmbientSample& sample : samples) {
+        // Light from there travels the other way.
+        const double half = std::sqrt(std::clamp(0.5 + 0.5 * glm::dot(sample.from, v), 0.0, 1.0));
+        const double at = half * (FINE_NODES - 1);
+        const size_t node = std::min(static_cast<size_t>(at), FINE_NODES - 2);
+        const double part = at - static_cast<double>(node);
+        // Less the mean: what is the same everywhere stays so.
+        sum += sample.solidAngle * (sample.radiance - mean) *
+               glm::mix(kernel[node], kernel[node + 1], part);
+      }
+      fine[static_cast<size_t>(row * interface_::FINE_AZIMUTHS + column)] =
+          glm::vec4(glm::vec3(sum), 0);
+    }
+  }
+  return fine;
+}
+
 bool dark(const AmbientLight& light) {
   return std::all_of(light.begin(), light.end(),
                      [](const glm::vec4& one) { return !(one.x > 0 || one.y > 0 || one.z > 0); });
@@ -91,11 +141,11 @@ AmbientSizes ambientSizes(const std::array<uint32_t, 3>& cells) {
   }
   constexpr VkDeviceSize RGBA = 4 * sizeof(float);
   return {RGBA * (2 * TERMS * total + 2 * DIRECTIONS * VkDeviceSize{sizes.cells[0]}),
-          RGBA * (TRANSPORT_DEGREES + TERMS) * total};
+          RGBA * ((TRANSPORT_DEGREES + TERMS) * total + sizes.cells[0])};
 }
 
-void fillAmbient(const VolumeState& volume, const TransportShape& shape, const AmbientLight& light,
-                 interface_::AmbientUniforms& out) {
+void fillAmbient(const VolumeState& volume, const TransportShape& shape,
+                 const VolumeAmbient& ambient, interface_::AmbientUniforms& out) {
   out = {};
   const glm::dmat3 box(volume.worldFromBox);
   const glm::dmat3 boxFromWorld = glm::inverse(box);
@@ -122,8 +172,9 @@ void fillAmbient(const VolumeState& volume, const TransportShape& shape, const A
     for (size_t term = 0; term < TERMS; ++term) {
       out.harmonics[d * 4 + term / 4][static_cast<int>(term % 4)] = static_cast<float>(terms[term]);
     }
-    out.incoming[d] = light[d];
+    out.incoming[d] = ambient.light[d];
   }
+  std::copy(ambient.fine.begin(), ambient.fine.end(), out.fine);
   for (int i = 0; i < 3; ++i) {
     out.worldFromBox[i] = glm::vec4(glm::vec3(box[i]), 0);
   }

@@ -23,6 +23,10 @@ struct AmbientSample {
 // degree < 4 that `samples` have; nowhere below 0.
 AmbientLight ambientThrough(const glm::dmat3& box, const TransportShape& shape,
                             std::span<const AmbientSample> samples);
+// What an unshaded cell scatters of it in each direction by degrees over 3; `whole`: with the peak,
+// which is seen as wide as the samples lie apart.
+AmbientFine ambientFine(const TransportMedia& media, std::span<const AmbientSample> samples,
+                        bool whole);
 // Whether nothing comes in.
 bool dark(const AmbientLight& light);
 
@@ -32,7 +36,7 @@ struct AmbientSizes {
 };
 AmbientSizes ambientSizes(const std::array<uint32_t, 3>& cells);
 
-void fillAmbient(const VolumeState& volume, const TransportShape& shape, const AmbientLight& light,
-                 interface_::AmbientUniforms& out);
+void fillAmbient(const VolumeState& volume, const TransportShape& shape,
+                 const VolumeAmbient& ambient, interface_::AmbientUniforms& out);
 
 }  // namespace welkin

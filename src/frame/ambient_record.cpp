@@ -22,10 +22,11 @@ constexpr uint32_t GROUP = 64;
 class AmbientRecorder {
  public:
   AmbientRecorder(FrameCommands& commands, const std::array<uint32_t, 3>& cells, uint32_t fields,
-                  WlkPassStats& stats)
+                  bool whole, WlkPassStats& stats)
       : c_(commands),
         cells_(cells),
         fields_(fields),
+        whole_(whole),
         sizes_(transportSizes(cells)),
         stats_(stats) {}
 
@@ -34,10 +35,11 @@ class AmbientRecorder {
       dispatch(vk::Pass::AmbientCells, level, 0, sizes_.cells[level], 1);
     }
     dispatch(vk::Pass::AmbientSource, 0, 0, sizes_.cells[0], 1);
+    sweep(0, interface_::AMBIENT_ALONE);
     for (uint32_t round = 0; round < ROUNDS; ++round) {
       cycle(0);
     }
-    sweep(0, c_.quality.transport ? 0 : interface_::AMBIENT_WHOLE);
+    sweep(0, whole_ ? interface_::AMBIENT_WHOLE : 0);
   }
 
   void show() { dispatch(vk::Pass::AmbientView, 0, 0, sizes_.cells[0], 1); }
@@ -47,7 +49,8 @@ class AmbientRecorder {
     const uint32_t x = cells_[0] >> level;
     const uint32_t y = cells_[1] >> level;
     const uint32_t z = cells_[2] >> level;
-    dispatch(vk::Pass::AmbientSweep, level, level == 0 ? interface_::AMBIENT_INCOMING : 0,
+    const uint32_t from = level == 0 ? interface_::AMBIENT_INCOMING : 0;
+    dispatch(vk::Pass::AmbientSweep, level, from | (flags & interface_::AMBIENT_ALONE),
              std::max({x * y, y * z, z * x}), interface_::AMBIENT_DIRECTIONS);
     dispatch(vk::Pass::AmbientGather, level, flags, sizes_.cells[level], 1);
   }
@@ -88,6 +91,7 @@ class AmbientRecorder {
   FrameCommands& c_;
   std::array<uint32_t, 3> cells_;
   uint32_t fields_;
+  bool whole_;
   TransportSizes sizes_;
   WlkPassStats& stats_;
 };
@@ -138,7 +142,7 @@ void recordAmbient(FrameCommands& c, const PlannedVolume& planned, VkDeviceSize 
   const VkDeviceSize offset =
       c.in.slot * r.slotStride + r.ambientOffset + planned.index * r.ambientStride;
   AmbientUniforms uniforms;
-  fillAmbient(state, shape, state.ambient.light, uniforms);
+  fillAmbient(state, shape, state.ambient[planned.ambientWhole ? 1 : 0], uniforms);
   std::memcpy(static_cast<char*>(r.uniforms.data()) + offset, &uniforms, sizeof uniforms);
 
   Bindings& b = c.bindings;
@@ -155,8 +159,8 @@ void recordAmbient(FrameCommands& c, const PlannedVolume& planned, VkDeviceSize 
   const bool external = bindFields(b, set, c, volume);
   c.vk.CmdBindDescriptorSets(c.commands, VK_PIPELINE_BIND_POINT_COMPUTE,
                              c.pipelines.ambientLayout(), 0, 1, &set.set, 0, nullptr);
-  AmbientRecorder recorder(c, shape.cells, state.fieldKind(), stats);
-  const uint64_t whole = c.quality.transport ? 0 : 1;
+  AmbientRecorder recorder(c, shape.cells, state.fieldKind(), planned.ambientWhole, stats);
+  const uint64_t whole = planned.ambientWhole ? 1 : 0;
   const bool same = remembered(grid, uniforms, {planned.id, state.version, whole});
   stats.reason = c.quality.noSkip ? uint32_t{WLK_REASON_NO_SKIP_FLAG} : planned.ambientReason;
   if (!same || c.quality.noSkip || external) {

@@ -451,6 +451,9 @@ void makePlan(const PlanInput& in, Plan& plan) {
       }
     }
   }
+  for (PlannedVolume& volume : plan.volumes) {
+    volume.ambientWhole = !(in.quality.transport && volume.lit && plan.lightCount() > 0);
+  }
   if (!plan.multiple) {
     const bool layersOff = (in.sky || in.fog) && !plan.air && !plan.fog;
     plan.skyReason = layersOff                               ? WLK_REASON_LAYER_OFF

@@ -130,6 +130,8 @@ struct PlannedVolume {
   bool lit;
   bool ambient;  // lit by sky and ground
   uint32_t ambientReason;
+  // The peak of the phase function counts as scattering, not as passing: as the eye's pass does.
+  bool ambientWhole;
   uint32_t lightReason;
   uint32_t eyeReason;
   double distance;

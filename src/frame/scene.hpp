@@ -107,10 +107,13 @@ struct LightStore {
 // Radiance, RGB, of the light outside along each direction of a volume's ambient grid.
 constexpr size_t AMBIENT_LIGHT_DIRECTIONS = 26;
 using AmbientLight = std::array<glm::vec4, AMBIENT_LIGHT_DIRECTIONS>;
+// What it scatters by high degrees, see AmbientUniforms::fine.
+using AmbientFine = std::array<glm::vec4, 256>;
 
 // The light of sky and ground on a volume, and what it was made of.
 struct VolumeAmbient {
   AmbientLight light{};
+  AmbientFine fine{};
   std::vector<char> key;  // empty: nothing yet
 };
 
@@ -128,7 +131,7 @@ struct VolumeState {
   vk::Buffer pairTable;                                  // of `transport`, as its passes read it
   uint64_t version = 1;                                  // of the fields' contents
   std::vector<LightStore> lightStores;                   // one per shape that views ask for
-  VolumeAmbient ambient;
+  std::array<VolumeAmbient, 2> ambient;          // second: with the peak of the phase function
   std::array<BrickFaces, WLK_MAX_FIELDS> faces;  // of Welkin's own images; empty: of none
   // Where fields are kept as bricks: the slot of each, a channel per field (pageChannels).
   vk::Image pages;

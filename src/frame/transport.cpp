@@ -233,6 +233,30 @@ TransportSizes transportSizes(const std::array<uint32_t, 3>& cells) {
   return sizes;
 }
 
+static void fillFineKernel(const VolumeState& volume, const std::vector<TransportPhase>& phases,
+                           const std::vector<double>& weights, TransportMedia& media) {
+  for (uint32_t i = 0; i < volume.fieldCount; ++i) {
+    const TransportPhase& phase = phases[i];
+    const std::array<double, RGB> albedo = volume.fields[i].medium.scaledAlbedo();
+    size_t at = 0;
+    for (size_t n = 0; n < FINE_NODES; ++n) {
+      const double half = static_cast<double>(n) / (FINE_NODES - 1);
+      const double y = 2 * half * half;
+      while (at + 2 < phase.y.size() && phase.y[at + 1] < y) {
+        ++at;
+      }
+      const double step = phase.y[at + 1] - phase.y[at];
+      const double part = step > 0 ? std::clamp((y - phase.y[at]) / step, 0.0, 1.0) : 0.0;
+      for (size_t c = 0; c < RGB; ++c) {
+        const double rest = phase.rest[c][at] + part * (phase.rest[c][at + 1] - phase.rest[c][at]);
+        const double scale = albedo[c] * (1 - phase.peak) / (1 - media.peak);
+        media.fineKernel[n][static_cast<int>(c)] += weights[i] * scale * rest;
+      }
+    }
+  }
+  removeLowDegrees(media.fineKernel);
+}
+
 TransportMedia transportMedia(const VolumeState& volume) {
   TransportMedia media;
   const std::vector<double> weights = fieldWeights(volume);
@@ -261,6 +285,7 @@ TransportMedia transportMedia(const VolumeState& volume) {
       }
     }
   }
+  fillFineKernel(volume, phases, weights, media);
   const TransportPairs pairs = transportPairs(list, weights);
   for (size_t l = 0; l < TRANSPORT_MOMENTS; ++l) {
     for (size_t k = 0; k < TRANSPORT_FIRST; ++k) {

@@ -33,12 +33,15 @@ TransportSizes transportSizes(const std::array<uint32_t, 3>& cells);
 uint32_t transportDirections(uint32_t level, const TransportShape& shape);
 
 constexpr size_t TRANSPORT_DEGREES = 4;  // of the moments
+constexpr size_t FINE_NODES = 256;       // of kernels, at sin(angle / 2) = i / 255
 
 // Numbers of a volume's media: what transport takes for the peak, and the rest's moments.
 struct TransportMedia {
   double peak = 0;  // albedo * energy in the peak, mean of the fields
   std::array<glm::vec4, WLK_MAX_FIELDS> fieldMoments{};
   std::array<std::array<glm::vec4, TRANSPORT_DEGREES>, WLK_MAX_FIELDS> colorMoments{};  // RGB
+  // Albedo times phase function without the peak, its degrees under 4 taken off, 1/sr, RGB.
+  std::array<glm::dvec3, FINE_NODES> fineKernel{};
   std::array<glm::vec4, 24> products{};
   std::vector<float> response;  // RGBA, see PAIR_TABLE_NODES
 };

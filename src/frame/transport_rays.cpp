@@ -121,4 +121,28 @@ std::array<glm::dvec3, TransportQuadrature::COUNT> transportDirectionsIn(
   return directions;
 }
 
+void removeLowDegrees(std::array<glm::dvec3, FINE_NODES>& kernel) {
+  const auto legendre = [](double x) {
+    return glm::dvec4(1, x, 0.5 * (3 * x * x - 1), 0.5 * x * (5 * x * x - 3));
+  };
+  // x = 1 - 2 h^2, dx = 4 h dh; trapezia in h, which leave the functions nearly orthogonal.
+  const auto node = [](size_t n) { return static_cast<double>(n) / (FINE_NODES - 1); };
+  std::array<glm::dvec3, 4> moments{};
+  for (size_t n = 0; n < FINE_NODES; ++n) {
+    const double h = node(n);
+    const double weight = (n + 1 == FINE_NODES ? 0.5 : 1.0) * 4 * h / (FINE_NODES - 1);
+    const glm::dvec4 p = legendre(1 - 2 * h * h);
+    for (int l = 0; l < 4; ++l) {
+      moments[static_cast<size_t>(l)] += weight * (l + 0.5) * p[l] * kernel[n];
+    }
+  }
+  for (size_t n = 0; n < FINE_NODES; ++n) {
+    const double h = node(n);
+    const glm::dvec4 p = legendre(1 - 2 * h * h);
+    for (int l = 0; l < 4; ++l) {
+      kernel[n] -= p[l] * moments[static_cast<size_t>(l)];
+    }
+  }
+}
+
 }  // namespace welkin

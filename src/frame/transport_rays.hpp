@@ -40,4 +40,7 @@ glm::dmat3 transportTurn(const glm::dmat3& box);
 std::array<glm::dvec3, TransportQuadrature::COUNT> transportDirectionsIn(
     const glm::dmat3& box, const TransportShape& shape);
 
+// Takes degrees under 4 off a function of the angle, at the nodes of FINE_NODES.
+void removeLowDegrees(std::array<glm::dvec3, FINE_NODES>& kernel);
+
 }  // namespace welkin

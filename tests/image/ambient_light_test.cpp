@@ -54,7 +54,12 @@ Camera cameraAt(double elevation_deg) {
 
 class AmbientLight : public ::testing::Test {
  protected:
-  AmbientLight() : scene_(SIZE) { welkin::check(wlkSetLights(scene_.context(), 0, 0, nullptr)); }
+  AmbientLight() : scene_(SIZE) {
+    // Dark, but a light: it decides what counts as passing.
+    auto light = welkin::make<WlkLight>();
+    std::fill_n(light.irradiance, 3, 1e-6f);
+    welkin::check(wlkSetLights(scene_.context(), 1, sizeof light, &light));
+  }
   ~AmbientLight() override { EXPECT_TRUE(scene_.messages().empty()) << scene_.messages().front(); }
 
   void setLevel(uint32_t level, uint32_t scattering) {
@@ -139,14 +144,16 @@ class AmbientTruth : public AmbientLight {
     }
     truth::RenderOptions options;
     options.samples = 512;
-    options.firstOrder = 1;
     const truth::RenderResult wanted = truth::render(scene, rays, options);
     std::vector<double> is;
     std::vector<double> shouldBe;
     double noise = 0;
     for (size_t i = 0; i < rays.size(); ++i) {
       is.push_back(picture.radiance[i][0]);
-      shouldBe.push_back(wanted.pixels[i].radiance[0]);
+      // Behind the volume is the sky or black ground. Light that the forward peak turns a little
+      // counts as passing for some forms of scattering.
+      const double behind = rays[i].direction[1] > 0 ? picture.transmittance[i][0] : 0.0;
+      shouldBe.push_back(wanted.pixels[i].radiance[0] - behind);
       noise += wanted.pixels[i].variance[0] / (SIZE * SIZE);
     }
     // Without the noise of the truth.
@@ -167,12 +174,12 @@ TEST_F(AmbientTruth, OfBallsIsThatOfPathTracing) {
       setLevel(level, scattering);
       std::printf("level %u, scattering %u\n", level, scattering);
       for (const double elevation : {-20.0, 0.0, 45.0}) {
-        // From above a thin ball shows a tenth of what it shows from below: light turned back, of
-        // which four degrees of harmonics know little.
-        if (elevation <= 0) {
-          expectNear("ball", ball(), 2, 0.85, elevation, {0.17, 0.33});
+        // From above a thin ball shows a tenth of what it shows from below, a third too much; at
+        // the horizon its forward peak blurs the edge of the sky behind it.
+        if (elevation < 0) {
+          expectNear("ball", ball(), 2, 0.85, elevation, {0.09, 0.19});
         }
-        expectNear("ball", ball(), 20, 0.85, elevation, {0.08, 0.22});
+        expectNear("ball", ball(), 20, 0.85, elevation, {0.05, 0.2});
         expectNear("slab", slab(), 20, 0.5, elevation, {0.08, 0.21});
       }
     }
