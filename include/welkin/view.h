@@ -361,7 +361,10 @@ enum {
   /** A map of the volumes' shadow: the engine's (welkin_vulkan.h), or the view's own. */
   WLK_PASS_SHADOW_MAP = 6,
   /** Light of sky and ground inside a volume (wlkSetAmbient). */
-  WLK_PASS_VOLUME_AMBIENT = 7
+  WLK_PASS_VOLUME_AMBIENT = 7,
+  /** Aerial perspective for the engine's transparents (welkin_vulkan.h), its march through volumes
+   *  included. */
+  WLK_PASS_AERIAL_PERSPECTIVE = 8
 };
 
 /** Why a pass was recorded or not. */
@@ -410,7 +413,8 @@ typedef struct WlkFrameStats {
   /** Bytes of device memory and of host memory that the context holds. */
   uint64_t deviceMemory;
   uint64_t hostMemory;
-  /** Pixels of the newest finished frame whose value was not finite before the final guard. */
+  /** Pixels, and froxels of aerial perspective, of the newest finished frame whose value was not
+   *  finite before the final guard. */
   uint64_t nonFinitePixels;
 } WlkFrameStats;
 

@@ -30,6 +30,7 @@ struct WlkVulkanImage;
 struct WlkVulkanViewTargets;
 struct WlkShadowMapInfo;
 struct WlkShadowMapState;
+struct WlkAerialPerspective;
 
 namespace welkin {
 
@@ -78,6 +79,7 @@ WELKIN_STRUCT_TYPE(::WlkVulkanImage, WLK_STRUCT_VULKAN_IMAGE);
 WELKIN_STRUCT_TYPE(::WlkVulkanViewTargets, WLK_STRUCT_VULKAN_VIEW_TARGETS);
 WELKIN_STRUCT_TYPE(::WlkShadowMapInfo, WLK_STRUCT_SHADOW_MAP_INFO);
 WELKIN_STRUCT_TYPE(::WlkShadowMapState, WLK_STRUCT_SHADOW_MAP_STATE);
+WELKIN_STRUCT_TYPE(::WlkAerialPerspective, WLK_STRUCT_AERIAL_PERSPECTIVE);
 #undef WELKIN_STRUCT_TYPE
 
 /** A structure with sType, structSize, next and the defaults of the C header. */

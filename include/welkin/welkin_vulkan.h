@@ -114,6 +114,12 @@ typedef struct WlkVulkanViewTargets {
   /** 2-D of any size, single-sampled, with at least lightShadow->cascadeCount layers (`depth`);
    *  usage and formats as for `depth`. The image's first mip level is read. */
   const WlkVulkanImage* shadowMap;
+  /** Aerial perspective (wlkVulkanSetAerialPerspective), 3-D, written in any mode: premultiplied
+   *  radiance, times preExposure and in the view's colours, and RGB transmittance; alpha 1. Of one
+   *  format, R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT. Both or neither; null: nothing is recorded
+   *  for it. Default null. */
+  const WlkVulkanImage* aerialRadiance;
+  const WlkVulkanImage* aerialTransmittance;
 } WlkVulkanViewTargets;
 
 /** Makes a field of a volume read the engine's own 3-D image instead of Welkin's copy; null goes
@@ -138,6 +144,34 @@ WLK_API WlkResult wlkVulkanCmdUpdate(WlkContext context, VkCommandBuffer command
  *  INVALID_ARGUMENT, UNSUPPORTED_FORMAT. */
 WLK_API WlkResult wlkVulkanCmdRenderView(WlkContext context, VkCommandBuffer commandBuffer,
                                          WlkView view, const WlkVulkanViewTargets* targets);
+
+/* ------------------------------------------------------------------------- aerial perspective */
+
+/** Froxels of a view, for the engine's transparents: what air, fog and volumes put between the eye
+ *  and each of them, as the composite has it for an opaque pixel there. Columns go through the
+ *  middles of width x height equal parts of the picture; slice k = 0 .. depth - 1 lies at
+ *  distance * (k / (depth - 1))^exponent from the eye, along the ray. */
+typedef struct WlkAerialPerspective {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Columns across the picture. [1, 2048], default 64 x 36. */
+  uint32_t width;
+  uint32_t height;
+  /** Slices; the first is at the eye and says 0 and 1. [2, 1024], default 32. */
+  uint32_t depth;
+  /** 1: slices are equally far apart; larger: denser towards the eye. [1, 8], default 2. */
+  float exponent;
+  /** Of the last slice from the eye. m, [1, 1e7], default 32000. */
+  float distance;
+  uint32_t reserved0;
+} WlkAerialPerspective;
+
+/** Gives a view froxels, which wlkVulkanCmdRenderView writes to images that it gets; null takes
+ *  them away. Another size needs wlkPrepare, exponent and distance do not. [C] Errors:
+ *  INVALID_ARGUMENT, WRONG_STATE outside engine-device mode; LIMIT_EXCEEDED by wlkPrepare. */
+WLK_API WlkResult wlkVulkanSetAerialPerspective(WlkContext context, WlkView view,
+                                                const WlkAerialPerspective* aerial);
 
 /* -------------------------------------------------------------------------------- shadow maps */
 

@@ -50,4 +50,9 @@ struct FrameUniforms {
   vec4 cascade[3 * MAX_CASCADES];
   // What turns the map's value into that depth: factor, summand; bias as depth.
   vec4 cascadeDepth[MAX_CASCADES];
+  // Of froxels, which the viewport counts then: distance of the last slice (m), exponent, 1 over
+  // the slices less one.
+  vec4 froxels;
+  // First and last slice in which volumes are marched, 1 where the images have half floats.
+  vec4 froxelRange;
 };

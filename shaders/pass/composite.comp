@@ -14,15 +14,10 @@ layout(set = 0, binding = 4) uniform writeonly image2D target0;
 layout(set = 0, binding = 5) uniform writeonly image2D target1;
 
 #include "composite_pixel.glsl"
+#include "half_float.glsl"
 
-// lavapipe truncates on storing half floats; after this the truncation is exact.
 vec3 rounded(vec3 v) {
-  if (!ROUND_TO_HALF) {
-    return v;
-  }
-  vec2 rg = unpackHalf2x16(packHalf2x16(v.xy));
-  vec2 b = unpackHalf2x16(packHalf2x16(vec2(v.z, 0.0f)));
-  return vec3(rg, b.x);
+  return ROUND_TO_HALF ? roundedToHalf(v) : v;
 }
 
 void main() {

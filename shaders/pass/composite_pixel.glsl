@@ -141,13 +141,14 @@ vec4 volumeState(uvec2 pixel) {
   return frameState[pixel.y * uint(frame.viewport.x) + pixel.x];
 }
 
-PixelLayer pixelLayer(uvec2 pixel) {
-  vec3 direction = pixelDirection(frame, vec2(pixel));
-  float surface = INFINITE_DISTANCE;
-  if (DEPTH_ENABLED) {
-    float d = texelFetch(depthImage, ivec2(pixel), 0).x;
-    surface = surfaceDistance(frame, vec2(pixel), d);
-  }
+// What volumes left on a ray; `any` where they may cover it.
+struct VolumeLayer {
+  bool any;
+  vec4 state;
+};
+
+// Along a ray to a surface; `pixel` tells samples of neighbours apart.
+PixelLayer layerTo(uvec2 pixel, vec3 direction, float surface, VolumeLayer volumes) {
   bool open = surface >= INFINITE_DISTANCE;
   Air air = airOf(frame);
   AirRay ray = airRayOf(frame, frame.lights[0], direction);
@@ -172,21 +173,20 @@ PixelLayer pixelLayer(uvec2 pixel) {
     }
   } else if (open && DISK_KIND > 0u && LIGHT_ENABLED) {
     vec3 disk = diskRadiance(direction);
-    if (VOLUMES_ENABLED && covered(pixel)) {
+    if (VOLUMES_ENABLED && volumes.any) {
       // Forward peaks pass for transmitted light, but not as an image.
-      float hides = volumeState(pixel).w;
+      float hides = volumes.state.w;
       disk *= exp(log(max(hides, 1.0e-30f)) * frame.ground.w);
     }
     layer.radiance += layer.transmittance * disk;
   }
   if (SHADOWS_ENABLED) {
-    float passes = VOLUMES_ENABLED && covered(pixel) ? volumeState(pixel).w : 1.0f;
+    float passes = VOLUMES_ENABLED && volumes.any ? volumes.state.w : 1.0f;
     shade = shadowedLight(air, ray, direction, reach, passes, pixel);
   }
-  if (VOLUMES_ENABLED && covered(pixel)) {
-    vec4 state = volumeState(pixel);
-    layer.radiance = compositeOver(state.xyz, state.w, layer.radiance);
-    layer.transmittance *= state.w;
+  if (VOLUMES_ENABLED && volumes.any) {
+    layer.radiance = compositeOver(volumes.state.xyz, volumes.state.w, layer.radiance);
+    layer.transmittance *= volumes.state.w;
   }
   layer.radiance = layer.radiance - shade;
   vec3 color = vec3(dot(frame.colorRed.xyz, layer.radiance),
@@ -195,6 +195,22 @@ PixelLayer pixelLayer(uvec2 pixel) {
   // A comparison, not max: it lets NaN through to the counter.
   layer.radiance = mix(color, vec3(0.0f), lessThan(color, vec3(0.0f)));
   return layer;
+}
+
+PixelLayer pixelLayer(uvec2 pixel) {
+  vec3 direction = pixelDirection(frame, vec2(pixel));
+  float surface = INFINITE_DISTANCE;
+  if (DEPTH_ENABLED) {
+    float d = texelFetch(depthImage, ivec2(pixel), 0).x;
+    surface = surfaceDistance(frame, vec2(pixel), d);
+  }
+  VolumeLayer volumes;
+  volumes.any = VOLUMES_ENABLED && covered(pixel);
+  volumes.state = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  if (volumes.any) {
+    volumes.state = volumeState(pixel);
+  }
+  return layerTo(pixel, direction, surface, volumes);
 }
 
 bool isFinite(vec3 v) {

@@ -23,6 +23,8 @@ layout(constant_id = 8) const bool MULTIPLE_ENABLED = true;
 layout(constant_id = 9) const bool AMBIENT = false;
 // All colours scatter alike: one is computed.
 layout(constant_id = 10) const bool GREY = false;
+// Slices of froxels, one behind the other, instead of pixels: rays end at the slice's distance.
+layout(constant_id = 13) const bool FROXELS = false;
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
 layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volume; };
@@ -118,12 +120,16 @@ void main() {
   if (pixel.x >= uint(volume.rect.z) || pixel.y >= uint(volume.rect.w)) {
     return;
   }
-  uint index = pixel.y * uint(frame.viewport.x) + pixel.x;
+  uint layer = FROXELS ? gl_WorkGroupID.z + uint(frame.froxelRange.x) : 0u;
+  uint index = (layer * uint(frame.viewport.y) + pixel.y) * uint(frame.viewport.x) + pixel.x;
   vec3 direction = pixelDirection(frame, vec2(pixel));
   float surface = LONGEST_RAY * 100.0f;
   if (DEPTH_ENABLED) {
     float d = texelFetch(depthImage, ivec2(pixel), 0).x;
     surface = surfaceDistance(frame, vec2(pixel), d);
+  }
+  if (FROXELS) {
+    surface = froxelDistance(frame, layer);
   }
 
   March m;
@@ -168,7 +174,9 @@ void main() {
         ends[i] = cutExp(end.field[i]);
       }
     }
-    do {
+    // The test stands in front: lavapipe goes on with lanes whose loop has ended, so that what a
+    // test at the end leaves is computed once more, from arrays that are already a stretch further.
+    while (s < last && eyeDepth * keep < RAY_ENDS) {
       if (LEAPS) {
         // The stretch takes up those after it in which there is nothing: no sample is lost.
         float here = 0.5f * (s + min(first * dt, last));
@@ -210,7 +218,7 @@ void main() {
       through = passed;
       s = next;
       first += 1.0f;
-    } while (s < last && eyeDepth * keep < RAY_ENDS);
+    }
     state = vec4(sum, exp(-min(eyeDepth * keep, EXP_CUT)));
   }
 

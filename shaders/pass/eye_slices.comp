@@ -20,6 +20,8 @@ layout(constant_id = 7) const bool TRANSPORT = false;
 layout(constant_id = 8) const bool MULTIPLE_ENABLED = true;
 // Light of sky and ground, from a grid of its own.
 layout(constant_id = 9) const bool AMBIENT = false;
+// Slices of froxels, one behind the other, instead of pixels: rays end at the slice's distance.
+layout(constant_id = 13) const bool FROXELS = false;
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
 layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volume; };
@@ -105,12 +107,16 @@ void main() {
   if (pixel.x >= uint(volume.rect.z) || pixel.y >= uint(volume.rect.w)) {
     return;
   }
-  uint index = pixel.y * uint(frame.viewport.x) + pixel.x;
+  uint layer = FROXELS ? gl_WorkGroupID.z + uint(frame.froxelRange.x) : 0u;
+  uint index = (layer * uint(frame.viewport.y) + pixel.y) * uint(frame.viewport.x) + pixel.x;
   vec3 direction = pixelDirection(frame, vec2(pixel));
   float surface = LONGEST_RAY * 100.0f;
   if (DEPTH_ENABLED) {
     float d = texelFetch(depthImage, ivec2(pixel), 0).x;
     surface = surfaceDistance(frame, vec2(pixel), d);
+  }
+  if (FROXELS) {
+    surface = froxelDistance(frame, layer);
   }
 
   // Everything on the ray is affine in the distance t (m).
@@ -175,7 +181,8 @@ void main() {
       }
       eyeDepth = before / volume.texelOrigin.w;
     }
-    do {
+    // Tested in front, as in eye_march.comp.
+    while (t < last && batch.w > RAY_ENDS && guard < 65000u) {
       float middle = t + 0.5f * dt;
       vec4 extinction = fieldExtinction(boxOrigin + middle * boxStep);
       float beta = extinction.x + extinction.y + extinction.z + extinction.w;
@@ -215,7 +222,7 @@ void main() {
         dt = max(stop - t, 0.0f) / float(left);
       }
       guard += 1u;
-    } while (t < last && batch.w > RAY_ENDS && guard < 65000u);
+    }
 
     if (rate > 0.0f) {
       state = vec4(state.xyz + state.w * batch.xyz, state.w * batch.w);

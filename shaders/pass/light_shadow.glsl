@@ -69,7 +69,7 @@ float marchMap(inout MapMarch march, vec3 direction, float end) {
   float far = end;
   int next = 1;
   int halvings = 0;
-  do {
+  while (march.at < end) {  // tested in front, as in eye_march.comp
     bool looksOn = halvings == 0;
     float t = looksOn ? (next < SHADOW_PARTS ? begin + float(next) * part : end)
                       : 0.5f * (march.at + far);
@@ -88,6 +88,6 @@ float marchMap(inout MapMarch march, vec3 direction, float end) {
       march.at = far;
       march.dark = 1.0f - march.dark;
     }
-  } while (march.at < end);
+  }
   return end > begin ? clamp(sum / (end - begin), 0.0f, 1.0f) : 0.0f;
 }

@@ -20,6 +20,11 @@ float surfaceDistance(FrameUniforms frame, vec2 pixel, float d) {
   return reach / w;
 }
 
+// Distance of a slice of froxels. m.
+float froxelDistance(FrameUniforms frame, uint slice) {
+  return frame.froxels.x * pow(float(slice) * frame.froxels.z, frame.froxels.y);
+}
+
 Air airOf(FrameUniforms frame) {
   Air air;
   air.planetRadius = frame.fog.w;

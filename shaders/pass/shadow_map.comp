@@ -42,7 +42,7 @@ void main() {
   float first = 0.0f;
   float second = 0.0f;
   float k = 0.5f;
-  do {
+  while (k < count) {  // tested in front, as in eye_march.comp
     float d = inside.begin + k * dt;
     vec4 extinction = fieldExtinction(base + d * volume.along.xyz);
     float part = (extinction.x + extinction.y + extinction.z + extinction.w) * dt;
@@ -50,7 +50,7 @@ void main() {
     first += part * d;
     second += part * d * d;
     k += 1.0f;
-  } while (k < count);
+  }
   if (!(depth > 0.0f)) {
     return;
   }

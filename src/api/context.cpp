@@ -223,6 +223,10 @@ void WlkContext_T::forgetBindings() {
     if (ViewState* view = views.at(i)) {
       for (ViewSlot& slot : view->resources.slots) {
         slot.composite.bound = {};
+        slot.aerial.bound = {};
+        for (BoundSet& set : slot.froxels) {
+          set.bound = {};
+        }
         for (BoundSet& set : slot.volumes) {
           set.bound = {};
         }

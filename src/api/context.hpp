@@ -152,6 +152,10 @@ void prepareShadowMaps(WlkContext_T& context, std::span<const uint32_t> fieldKin
 // Hands the map's objects to the frames that use them.
 void retireShadowMap(WlkContext_T& context, ShadowMapState& map);
 
+// The images of aerial perspective among a view's targets, if there are any.
+void importAerial(WlkContext_T& context, const ViewState& view, const WlkVulkanViewTargets& targets,
+                  ViewTargets& images);
+
 // Records pending uploads and first-use transitions.
 void recordUpdate(WlkContext_T& context, VkCommandBuffer commands);
 

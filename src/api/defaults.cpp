@@ -182,6 +182,16 @@ WlkLightShadow lightShadow() {
   return s;
 }
 
+WlkAerialPerspective aerial() {
+  auto a = blank<WlkAerialPerspective>(WLK_STRUCT_AERIAL_PERSPECTIVE);
+  a.width = 64;
+  a.height = 36;
+  a.depth = 32;
+  a.exponent = 2.0f;
+  a.distance = 32000.0f;
+  return a;
+}
+
 WlkPhaseQuery phaseQuery() {
   auto q = blank<WlkPhaseQuery>(WLK_STRUCT_PHASE_QUERY);
   q.order = 1;
@@ -265,6 +275,8 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
       return write(shadowMap(), structSize, structure);
     case WLK_STRUCT_SHADOW_MAP_STATE:
       return write(blank<WlkShadowMapState>(sType), structSize, structure);
+    case WLK_STRUCT_AERIAL_PERSPECTIVE:
+      return write(aerial(), structSize, structure);
     default:
       fail(WLK_ERROR_UNKNOWN_STRUCT, sType, "sType", "%u is no structure of this library", sType);
   }

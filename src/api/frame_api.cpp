@@ -348,14 +348,15 @@ WlkResult wlkPrepare(WlkContext context) {
       ViewState carrier(&c.memory);
       carrier.info = view->info;
       carrier.quality = view->quality;
+      carrier.aerial = view->aerial;
       features.space = nearSpace(c, *view);
       chooseStores(c, *view, features);
       prepareView(device, *c.pipelines, carrier, c.volumes.count(), c.maxFramesInFlight, features,
                   {fieldKinds.data(), kinds}, &c.memory);
       view->plan.volumes.reserve(c.volumes.count());
       view->planVolumes.reserve(c.volumes.count());
-      view->record.passes.reserve(3 + 4 * size_t{c.volumes.count()});
-      view->record.times.reserve(3 + 4 * size_t{c.volumes.count()});
+      view->record.passes.reserve(passRoom(c.volumes.count()));
+      view->record.times.reserve(passRoom(c.volumes.count()));
       c.retireView(*view);
       std::swap(view->resources, carrier.resources);
       view->prepared = true;

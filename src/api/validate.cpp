@@ -80,6 +80,8 @@ const char* structName(uint32_t sType) {
       return "WlkShadowMapInfo";
     case WLK_STRUCT_SHADOW_MAP_STATE:
       return "WlkShadowMapState";
+    case WLK_STRUCT_AERIAL_PERSPECTIVE:
+      return "WlkAerialPerspective";
     default:
       return "unknown structure";
   }

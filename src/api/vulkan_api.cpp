@@ -313,7 +313,8 @@ WlkResult wlkVulkanCmdRenderView(WlkContext context, VkCommandBuffer commandBuff
     if (!everythingUploaded(c)) {
       fail(WLK_ERROR_WRONG_STATE, 0, "context", "record wlkVulkanCmdUpdate before the views");
     }
-    const ViewTargets images = importTargets(c, state, t);
+    ViewTargets images = importTargets(c, state, t);
+    importAerial(c, state, t, images);
     recordFrame(c, commandBuffer, state, images);
     return WLK_SUCCESS;
   });

@@ -6,7 +6,7 @@
 
 namespace welkin {
 
-vk::PipelineKey compositeKeyOf(const vk::Pipelines& pipelines, const ViewState& view, bool depth) {
+CompositeVariant compositeVariant(const ViewState& view, bool depth) {
   CompositeVariant v{};
   v.air = view.plan.airKind();
   v.fog = view.plan.fog;
@@ -18,6 +18,11 @@ vk::PipelineKey compositeKeyOf(const vk::Pipelines& pipelines, const ViewState& 
   v.space = view.plan.space;
   v.allLight = view.plan.allLight;
   v.shadows = view.plan.shadowKind() & (view.resources.shadowImage ? 3U : 2U);
+  return v;
+}
+
+vk::PipelineKey compositeKeyOf(const vk::Pipelines& pipelines, const ViewState& view, bool depth) {
+  CompositeVariant v = compositeVariant(view, depth);
   // Variants are prepared for a layer as a whole; until one for space is, the table must do.
   vk::PipelineKey key;
   bool found = false;
@@ -34,20 +39,14 @@ vk::PipelineKey compositeKeyOf(const vk::Pipelines& pipelines, const ViewState& 
   return key;
 }
 
-void bindComposite(Bindings& bindings, const vk::Pipelines& pipelines, ViewState& view,
-                   const ViewTargets& targets, const RecordInput& in, VkDeviceSize counterOffset) {
-  ViewResources& r = view.resources;
-  BoundSet& set = r.slots[in.slot].composite;
-  bindings.buffer(set, vk::BIND_COMPOSITE_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-                  r.uniforms.handle(), in.slot * r.slotStride, sizeof(interface_::FrameUniforms));
+void bindLayer(Bindings& bindings, const vk::Pipelines& pipelines, const ViewState& view,
+               const ViewTargets& targets, BoundSet& set, const RecordInput& in,
+               VkDeviceSize counterOffset) {
+  const ViewResources& r = view.resources;
   bindings.buffer(set, vk::BIND_COMPOSITE_FOG_CURVE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                   r.uniforms.handle(), in.slot * r.slotStride + r.fogOffset, FOG_CURVE_BYTES);
-  bindings.buffer(set, vk::BIND_COMPOSITE_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                  r.frameState.handle(), 0, r.frameState.size());
   bindings.buffer(set, vk::BIND_COMPOSITE_COUNTERS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                   r.counters.handle(), counterOffset, 16);
-  bindings.image(set, vk::BIND_COMPOSITE_DEPTH, targets.depth ? targets.depth.view : in.dummy2d,
-                 pipelines.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   bindSkyLookup(bindings, pipelines, r, set,
                 {vk::BIND_COMPOSITE_SKY_TABLE, vk::BIND_COMPOSITE_SKY_PEAK}, in);
   bindings.image(set, vk::BIND_COMPOSITE_SKY_MOMENTS, momentsOf(in), pipelines.linear(),
@@ -58,6 +57,19 @@ void bindComposite(Bindings& bindings, const vk::Pipelines& pipelines, ViewState
                  shadow ? r.shadowImage.layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   bindings.image(set, vk::BIND_COMPOSITE_LIGHT_SHADOW,
                  view.plan.lightShadows ? targets.shadowMap.view : in.dummyArray,
+                 pipelines.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+void bindComposite(Bindings& bindings, const vk::Pipelines& pipelines, ViewState& view,
+                   const ViewTargets& targets, const RecordInput& in, VkDeviceSize counterOffset) {
+  ViewResources& r = view.resources;
+  BoundSet& set = r.slots[in.slot].composite;
+  bindLayer(bindings, pipelines, view, targets, set, in, counterOffset);
+  bindings.buffer(set, vk::BIND_COMPOSITE_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                  r.uniforms.handle(), in.slot * r.slotStride, sizeof(interface_::FrameUniforms));
+  bindings.buffer(set, vk::BIND_COMPOSITE_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                  r.frameState.handle(), 0, r.frameState.size());
+  bindings.image(set, vk::BIND_COMPOSITE_DEPTH, targets.depth ? targets.depth.view : in.dummy2d,
                  pipelines.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   const bool blend = view.info.composite == WLK_COMPOSITE_BLEND;
   if (targets.inputIsTarget && !blend) {

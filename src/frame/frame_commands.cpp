@@ -18,15 +18,15 @@ VkPipeline FrameCommands::find(const vk::PipelineKey& key) const {
 
 void FrameCommands::dispatch(VkPipeline pipeline, VkPipelineLayout layout,
                              const interface_::SliceConstants* push, uint32_t x, uint32_t y,
-                             WlkPassStats& stats, uint32_t statsIndex) {
+                             WlkPassStats& stats, uint32_t statsIndex, uint32_t z) {
   vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
   if (push != nullptr) {
     vk.CmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof *push, push);
   }
-  vk.CmdDispatch(commands, x, y, 1);
+  vk.CmdDispatch(commands, x, y, z);
   stats.recorded = 1;
   stats.commands += 1;
-  stats.invocations += uint64_t{x} * y * 64;
+  stats.invocations += uint64_t{x} * y * z * 64;
   view.record.stats.dispatches += 1;
   timestamp(statsIndex);
 }

@@ -20,6 +20,16 @@ inline uint32_t groups(uint32_t pixels) {
   return (pixels + 7) / 8;
 }
 
+// Aerial perspective in the frame: its line of the statistics, to which the volumes add, and the
+// slices of froxels in which volumes are marched.
+struct AerialPass {
+  bool recorded = false;
+  WlkPassStats stats{};
+  uint32_t statsIndex = 0;
+  uint32_t firstSlice = 0;
+  uint32_t endSlice = 0;
+};
+
 struct FrameCommands {
   FrameCommands(const vk::Device& device_, const vk::Pipelines& pipelines_,
                 VkCommandBuffer commands_, ViewState& view_, const RecordInput& in_)
@@ -42,6 +52,7 @@ struct FrameCommands {
   ViewSlot& slot;
   SliceQuality quality;
   Bindings bindings;
+  AerialPass aerial;
 
   // Throws NOT_PREPARED if the pipeline is missing.
   VkPipeline find(const vk::PipelineKey& key) const;
@@ -49,7 +60,7 @@ struct FrameCommands {
   // Counts towards the pass `stats`, which will be line `statsIndex` of the statistics.
   void dispatch(VkPipeline pipeline, VkPipelineLayout layout,
                 const interface_::SliceConstants* push, uint32_t x, uint32_t y, WlkPassStats& stats,
-                uint32_t statsIndex);
+                uint32_t statsIndex, uint32_t z = 1);
   // Ends a command of pass `index`; without one, starts the clock.
   void timestamp(uint32_t index = ~0u);
 

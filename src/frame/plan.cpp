@@ -226,6 +226,9 @@ PlannedVolume planVolume(const PlanInput& in, const PlanLights& lights, const Pl
   result.rect =
       contains(box, glm::dvec3(0)) ? PixelRect{0, 0, in.width, in.height} : coverOf(corners, in);
   result.distance = distanceTo(box);
+  for (const glm::dvec3& corner : corners) {
+    result.farthest = std::max(result.farthest, glm::length(corner));
+  }
   uint32_t reason = WLK_REASON_NEEDED;
   if ((in.layers & WLK_LAYER_VOLUMES) == 0) {
     reason = WLK_REASON_LAYER_OFF;

@@ -134,7 +134,8 @@ struct PlannedVolume {
   bool ambientWhole;
   uint32_t lightReason;
   uint32_t eyeReason;
-  double distance;
+  double distance;  // from the eye to the nearest point of the box and to its farthest, m
+  double farthest;
   PixelRect rect;
   SliceLayout layout;
   SliceLayout ownLayout;  // relative to the box's corner: the same for every eye

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstring>
 
+#include "frame/aerial.hpp"
 #include "frame/composite_record.hpp"
 #include "frame/frame_commands.hpp"
 #include "frame/resources.hpp"
@@ -17,6 +18,8 @@ namespace welkin {
 namespace {
 
 using interface_::FrameUniforms;
+
+constexpr size_t IMAGES = 7;  // of the engine, at most
 
 glm::dvec3 eyeOf(const ViewState& view) {
   return {view.camera.position[0], view.camera.position[1], view.camera.position[2]};
@@ -33,6 +36,7 @@ class Recorder {
         slot_(c_.slot) {}
 
   void run() {
+    planAerial(c_, targets_);
     findPipelines();
     start();
     acquireTargets();
@@ -40,10 +44,24 @@ class Recorder {
       c_.timestamp(static_cast<uint32_t>(view_.record.passes.size() - 1));
     }
     recordSkyTable();
+    if (view_.aerial) {
+      c_.aerial.statsIndex = static_cast<uint32_t>(view_.record.passes.size());
+      view_.record.passes.push_back(c_.aerial.stats);
+    }
+    if (c_.aerial.recorded) {
+      writeAerialFrame(c_, targets_.aerialHalf);
+    }
     for (const PlannedVolume& volume : view_.plan.volumes) {
       recordVolume(c_, targets_, volume);
     }
     recordComposite();
+    recordAerial(c_, targets_, counterOffset());
+    if (anything_) {
+      // The counter goes to the CPU.
+      c_.barrier(
+          {COMPUTE | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
+          {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
+    }
     releaseTargets();
     slot_.passes.clear();
     for (const WlkPassStats& pass : view_.record.passes) {
@@ -69,6 +87,9 @@ class Recorder {
       compositePipeline_ =
           c_.find(compositeKeyOf(c_.pipelines, view_, static_cast<bool>(targets_.depth)));
     }
+    if (c_.aerial.recorded) {
+      c_.find(aerialKeyOf(c_.pipelines, view_));
+    }
   }
 
   // Mean over the volumes drawn; 0 where they have no part of the light pass.
@@ -88,7 +109,7 @@ class Recorder {
 
   void start() {
     const Plan& plan = view_.plan;
-    anything_ = plan.composite || plan.drawnCount > 0;
+    anything_ = plan.composite || plan.drawnCount > 0 || c_.aerial.recorded;
     FrameRecord& record = view_.record;
     record.stats = {};
     record.stats.frameIndex = in_.frameIndex;
@@ -166,10 +187,12 @@ class Recorder {
         VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, 0,
         VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
         VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+    work_.fill(GENERAL_STATE);
     work_[0] = sampled;
     work_[1] = sampled;
-    work_[2] = view_.info.composite == WLK_COMPOSITE_BLEND ? attachment : GENERAL_STATE;
-    work_[3] = GENERAL_STATE;
+    if (view_.info.composite == WLK_COMPOSITE_BLEND) {
+      work_[2] = attachment;
+    }
     work_[4] = sampled;
     const std::array images = imageList();
     for (size_t i = 0; i < images.size(); ++i) {
@@ -192,9 +215,14 @@ class Recorder {
     }
   }
 
-  std::array<const TargetImage*, 5> imageList() const {
-    return {&targets_.depth, &targets_.colorInput, &targets_.target0, &targets_.target1,
-            &targets_.shadowMap};
+  std::array<const TargetImage*, IMAGES> imageList() const {
+    return {&targets_.depth,
+            &targets_.colorInput,
+            &targets_.target0,
+            &targets_.target1,
+            &targets_.shadowMap,
+            &targets_.aerialRadiance,
+            &targets_.aerialTransmittance};
   }
   // Whether the commands use image `i` of the list, if there is one.
   bool used(size_t i) const { return anything_ && (i != 4 || view_.plan.lightShadows); }
@@ -215,10 +243,6 @@ class Recorder {
         c_.dispatch(compositePipeline_, c_.pipelines.compositeLayout(), nullptr,
                     groups(view_.info.width), groups(view_.info.height), stats, index);
       }
-      // The counter goes to the CPU.
-      c_.barrier(
-          {COMPUTE | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
-          {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
     }
     view_.record.passes.push_back(stats);
   }
@@ -265,7 +289,7 @@ class Recorder {
   ViewSlot& slot_;
   VkPipeline compositePipeline_ = VK_NULL_HANDLE;
   bool anything_ = false;
-  std::array<WlkVulkanImageState, 5> work_{};
+  std::array<WlkVulkanImageState, IMAGES> work_{};
   SkyTableKey skyKey_{};
 };
 

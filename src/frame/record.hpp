@@ -28,6 +28,9 @@ struct ViewTargets {
   TargetImage target1;         // transmittance
   TargetImage shadowMap;       // the engine's, with all its cascades
   LightShadow lightShadow;     // where it lies
+  TargetImage aerialRadiance;  // both or none
+  TargetImage aerialTransmittance;
+  bool aerialHalf = false;  // these two hold half floats
 };
 
 // Volumes of the context in plan order of index, with the views of the engine's field images.

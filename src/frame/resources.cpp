@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "failure.hpp"
+#include "frame/aerial.hpp"
 #include "frame/ambient.hpp"
 #include "frame/ladder.hpp"
 #include "frame/shadow_map_record.hpp"
@@ -56,13 +57,20 @@ class Draft {
   ViewResources resources;
 };
 
-VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t volumes) {
-  const uint32_t sets = slots * (3 * volumes + 2);
-  const std::array sizes{
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, slots * (6 * volumes + 2)},
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, slots * (8 * volumes + 3)},
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, slots * (3 * volumes + 4)},
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, slots * (23 * volumes + 8)}};
+// Of each volume sets of its light inside, of that of the sky there and of what pixels see, of the
+// view those of the sky table and of the composite; the last of both kinds again for froxels.
+VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t volumes,
+                          bool froxels) {
+  const uint32_t more = froxels ? 1 : 0;
+  const uint32_t sets = slots * ((3 + more) * volumes + 2 + more);
+  const std::array sizes{VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                                              slots * ((6 + 2 * more) * volumes + 2 + more)},
+                         VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                              slots * ((8 + 3 * more) * volumes + 3 + 3 * more)},
+                         VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+                                              slots * ((3 + more) * volumes + 4 + 2 * more)},
+                         VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                              slots * ((23 + 13 * more) * volumes + 8 + 7 * more)}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.maxSets = sets;
   info.poolSizeCount = static_cast<uint32_t>(sizes.size());
@@ -87,7 +95,8 @@ VkDescriptorSet makeSet(const vk::Device& device, VkDescriptorPool pool,
 
 void makeSlots(vk::Device& device, const vk::Pipelines& pipelines, ViewResources& r,
                uint32_t framesInFlight, std::pmr::memory_resource* memory) {
-  r.pool = makePool(device, framesInFlight, r.volumeCapacity);
+  const bool froxels = static_cast<bool>(r.aerial.uniforms);
+  r.pool = makePool(device, framesInFlight, r.volumeCapacity, froxels);
   r.slots.reserve(framesInFlight);
   for (uint32_t i = 0; i < framesInFlight; ++i) {
     ViewSlot& slot = r.slots.emplace_back(memory);
@@ -95,6 +104,13 @@ void makeSlots(vk::Device& device, const vk::Pipelines& pipelines, ViewResources
     slot.skyTable.set = makeSet(device, r.pool, pipelines.skySetLayout());
     slot.volumes.resize(r.volumeCapacity);
     for (BoundSet& set : slot.volumes) {
+      set.set = makeSet(device, r.pool, pipelines.volumeSetLayout());
+    }
+    if (froxels) {
+      slot.aerial.set = makeSet(device, r.pool, pipelines.compositeSetLayout());
+      slot.froxels.resize(r.volumeCapacity);
+    }
+    for (BoundSet& set : slot.froxels) {
       set.set = makeSet(device, r.pool, pipelines.volumeSetLayout());
     }
     slot.transport.resize(r.grids.size());
@@ -106,7 +122,7 @@ void makeSlots(vk::Device& device, const vk::Pipelines& pipelines, ViewResources
       set.set = makeSet(device, r.pool, pipelines.ambientSetLayout());
     }
     slot.passOfQuery.reserve(r.queryCount);
-    slot.passes.reserve(3 + 4 * size_t{r.volumeCapacity});
+    slot.passes.reserve(passRoom(r.volumeCapacity));
     VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
     info.queryCount = r.queryCount;
@@ -188,82 +204,6 @@ void makeHeadlessTargets(vk::Device& device, const WlkViewInfo& info, ViewResour
   r.readback = vk::Buffer(device, pixels * 32, VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
 }
 
-void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
-                      const SceneFeatures& features, std::span<const uint32_t> fieldKinds) {
-  // Every state the frame may find the scene in without another wlkPrepare: light above or below
-  // the horizon, something opaque or not, volumes in view or not.
-  const SliceQuality quality = resolveQuality(view.quality);
-  const bool sky = features.sky && (view.info.layers & WLK_LAYER_SKY) != 0;
-  const uint32_t air = sky ? (features.absorber ? 2 : 1) : 0;
-  const bool fog = features.fog && (view.info.layers & WLK_LAYER_FOG) != 0;
-  for (uint32_t lights = 0; lights <= features.lights; ++lights) {
-    for (const bool depth : {false, true}) {
-      for (const uint32_t fields : fieldKinds) {
-        for (const bool stored : {false, true}) {
-          if (!(stored ? features.stores : features.batches)) {
-            continue;
-          }
-          for (const bool ambient : {false, features.ambient && quality.ambientCells > 0}) {
-            EyeVariant v{air, fog, lights > 0, depth, false, stored, ambient};
-            pipelines.prepare(eyeKey(v, fields, quality));
-            v.allLight = lights > 0 && sky && !fog && quality.multipleSky;
-            pipelines.prepare(eyeKey(v, fields, quality));
-          }
-        }
-      }
-      CompositeVariant v{};
-      v.air = air;
-      v.fog = fog;
-      v.lights = lights;
-      v.volumes = !fieldKinds.empty();
-      v.depth = depth;
-      if (sky && (view.info.layers & WLK_LAYER_SUN_DISK) != 0) {
-        v.disk = features.shapedDisk ? 2 : 1;
-      }
-      v.ground = sky && (view.info.layers & WLK_LAYER_GROUND) != 0;
-      v.multiple = quality.multipleSky && lights > 0;
-      const bool open = v.multiple && sky && !fog;
-      const uint32_t kinds = (quality.volumeShadows && v.volumes && lights > 0 ? 1U : 0U) |
-                             (quality.lightShadows && lights > 0 ? 2U : 0U);
-      for (uint32_t shadows = 0; shadows <= kinds; ++shadows) {
-        v.shadows = shadows & kinds;
-        v.space = v.allLight = false;
-        pipelines.prepare(compositeKey(view.info, v));
-        v.space = v.multiple && features.space;
-        pipelines.prepare(compositeKey(view.info, v));
-        v.space = false;
-        v.allLight = open;
-        pipelines.prepare(compositeKey(view.info, v));
-      }
-    }
-  }
-  for (uint32_t lights = 1; lights <= features.lights; ++lights) {
-    if (quality.multipleSky && (sky || fog)) {
-      pipelines.prepare(skyTableKey(air, fog, lights, false));
-      if (!fog) {
-        pipelines.prepare(skyTableKey(air, fog, lights, true));
-      }
-    }
-  }
-  for (const uint32_t fields : fieldKinds) {
-    for (const bool stored : {false, true}) {
-      if (stored ? features.stores : features.batches) {
-        pipelines.prepare(lightKey({quality.forwardScattering, stored}, fields));
-      }
-    }
-    if (quality.transport) {
-      for (const vk::Pass pass : TRANSPORT_PASSES) {
-        pipelines.prepare(transportKey(pass, fields));
-      }
-    }
-    for (const vk::Pass pass : AMBIENT_PASSES) {
-      if (features.ambient && quality.ambientCells > 0) {
-        pipelines.prepare(ambientKey(pass, fields));
-      }
-    }
-  }
-}
-
 constexpr uint32_t CURVE_POINTS = kCurveNodes;
 constexpr VkDeviceSize LAYER_BYTES = sizeof(float) * 4 * CURVE_POINTS * DEPTH_NODES;
 
@@ -305,59 +245,6 @@ VkFormat targetFormat(uint32_t welkinFormat) {
   }
 }
 
-vk::PipelineKey lightKey(const LightVariant& v, uint32_t fields) {
-  return ofFields({v.stored && !v.forward ? vk::Pass::LightDepth : vk::Pass::LightSlices,
-                   VK_FORMAT_UNDEFINED,
-                   {0, 0, 1, 0, v.forward}},
-                  fields);
-}
-
-vk::PipelineKey eyeKey(const EyeVariant& v, uint32_t fields, const SliceQuality& quality) {
-  vk::PipelineKey key =
-      ofFields({v.stored ? vk::Pass::EyeMarch : vk::Pass::EyeSlices,
-                VK_FORMAT_UNDEFINED,
-                {v.air, v.fog, v.light, 0, quality.forwardScattering, v.depth, v.allLight,
-                 quality.transport && v.light, quality.multipleSky, v.ambient}},
-               fields);
-  key.constants[10] = v.stored && (fields & VolumeState::GREY) != 0 ? 1 : 0;
-  const bool leaps = (fields & VolumeState::LEAPING) != 0;
-  key.constants[12] = v.stored && leaps && !quality.noSkip ? 1 : 0;
-  return key;
-}
-
-vk::PipelineKey transportKey(vk::Pass pass, uint32_t fields) {
-  const bool reads = pass == vk::Pass::TransportDepth || pass == vk::Pass::TransportCells;
-  const vk::PipelineKey key{pass, VK_FORMAT_UNDEFINED, {}};
-  return reads ? ofFields(key, fields) : key;
-}
-
-vk::PipelineKey ambientKey(vk::Pass pass, uint32_t fields) {
-  const vk::PipelineKey key{pass, VK_FORMAT_UNDEFINED, {}};
-  return pass == vk::Pass::AmbientCells ? ofFields(key, fields) : key;
-}
-
-vk::PipelineKey skyTableKey(uint32_t air, bool fog, uint32_t lights, bool allLight) {
-  return {vk::Pass::SkyTable, VK_FORMAT_UNDEFINED, {air, fog, lights, allLight}};
-}
-
-vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& v) {
-  vk::PipelineKey key;
-  key.constants = {v.air, v.fog, v.lights, v.volumes, v.depth, v.lights > 0 ? v.disk : 0, v.ground};
-  if (info.composite == WLK_COMPOSITE_BLEND) {
-    key.pass = vk::Pass::CompositeBlend;
-    key.format = targetFormat(info.targetFormat);
-  } else {
-    key.pass = vk::Pass::Composite;
-    key.constants[7] = info.composite == WLK_COMPOSITE_SEPARATE;
-    key.constants[8] = info.targetFormat == WLK_TARGET_RGBA16_FLOAT;
-  }
-  key.constants[9] = v.multiple && v.lights > 0 && (v.air > 0 || v.fog);
-  key.constants[10] = v.space && key.constants[9] != 0;
-  key.constants[11] = v.allLight && key.constants[9] != 0;
-  key.constants[12] = v.lights > 0 && (v.air > 0 || v.fog) ? v.shadows : 0;
-  return key;
-}
-
 void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
                  uint32_t volumeCount, uint32_t framesInFlight, const SceneFeatures& features,
                  std::span<const uint32_t> fieldKinds, std::pmr::memory_resource* memory) {
@@ -391,7 +278,7 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
       vk::Buffer(device, counterStride * framesInFlight,
                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
   const uint32_t batches = (quality.sliceCount + quality.batchSize - 1) / quality.batchSize;
-  r.queryCount = 4 + volumeCount * (2 * batches + 3);
+  r.queryCount = 5 + volumeCount * ((view.aerial ? 3 : 2) * batches + 3);
   const VkDeviceSize pixels = VkDeviceSize{info.width} * info.height;
   const VkDeviceSize stateBytes = volumeCount > 0 ? pixels * 16 : 16;
   r.frameState = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
@@ -425,14 +312,18 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   if (quality.multipleSky && (features.sky || features.fog)) {
     makeSkyTables(device, features, r);
   }
+  if (view.aerial) {
+    makeAerial(device, *view.aerial, framesInFlight,
+               volumeCount > 1 && batches > 1 && features.batches, r);
+  }
   if (device.info().headless) {
     makeHeadlessTargets(device, info, r);
   }
   makeSlots(device, pipelines, r, framesInFlight, memory);
   view.plan.volumes.reserve(volumeCount);
   view.planVolumes.reserve(volumeCount);
-  view.record.passes.reserve(3 + 4 * size_t{volumeCount});
-  view.record.times.reserve(3 + 4 * size_t{volumeCount});
+  view.record.passes.reserve(passRoom(volumeCount));
+  view.record.times.reserve(passRoom(volumeCount));
   std::swap(view.resources, r);
   view.prepared = true;
 }

@@ -25,6 +25,11 @@ struct SceneFeatures {
 
 VkFormat targetFormat(uint32_t welkinFormat);
 
+// Lines that a view's statistics have at most.
+constexpr size_t passRoom(size_t volumes) {
+  return 4 + 4 * volumes;
+}
+
 // (Re)makes what the view needs for up to `volumeCount` volumes. Strong guarantee: on failure the
 // view keeps what it had.
 void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
@@ -51,6 +56,7 @@ struct EyeVariant {
   bool fog, light, depth, allLight;
   bool stored;  // marches through a store
   bool ambient;
+  bool froxels = false;
 };
 vk::PipelineKey eyeKey(const EyeVariant& variant, uint32_t fields, const SliceQuality& quality);
 inline constexpr std::array TRANSPORT_PASSES{
@@ -73,5 +79,10 @@ struct CompositeVariant {
   uint32_t shadows;  // Plan::shadowKind
 };
 vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& variant);
+vk::PipelineKey aerialKey(CompositeVariant variant);
+
+// Makes every pipeline that a view's frames may ask for without another wlkPrepare.
+void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
+                      const SceneFeatures& features, std::span<const uint32_t> fieldKinds);
 
 }  // namespace welkin

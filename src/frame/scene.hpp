@@ -232,8 +232,10 @@ struct TransportGrid {
 
 struct ViewSlot {
   BoundSet composite;
+  BoundSet aerial;
   BoundSet skyTable;
   std::pmr::vector<BoundSet> volumes;
+  std::pmr::vector<BoundSet> froxels;    // of the volumes, where the view has aerial perspective
   std::pmr::vector<BoundSet> transport;  // of the volumes by PlannedVolume::index
   std::pmr::vector<BoundSet> ambient;    // likewise
   VkQueryPool queries = VK_NULL_HANDLE;
@@ -242,7 +244,12 @@ struct ViewSlot {
   std::pmr::vector<uint32_t> passOfQuery;  // query i + 1 ends a command of this pass
   std::pmr::vector<PassTime> passes;       // of that frame, in the plan's order
   explicit ViewSlot(std::pmr::memory_resource* memory)
-      : volumes(memory), transport(memory), ambient(memory), passOfQuery(memory), passes(memory) {}
+      : volumes(memory),
+        froxels(memory),
+        transport(memory),
+        ambient(memory),
+        passOfQuery(memory),
+        passes(memory) {}
 };
 
 struct ShadowSlot {
@@ -284,6 +291,15 @@ struct ShadowCaster {
   std::array<VkImageView, WLK_MAX_FIELDS> externalViews{};
 };
 
+// What the froxels of a view's aerial perspective are computed with.
+struct AerialResources {
+  vk::Buffer uniforms;  // per slot: frame, volumes
+  VkDeviceSize slotStride = 0;
+  VkDeviceSize volumeOffset = 0;
+  vk::Buffer frameState;  // slice by slice
+  vk::Buffer volumeState;
+};
+
 // Images and buffers of a view; remade by wlkPrepare when their sizes change.
 struct ViewResources {
   explicit ViewResources(std::pmr::memory_resource* memory)
@@ -302,6 +318,7 @@ struct ViewResources {
   ShadowMapState shadow;
   vk::Image shadowImage;  // where the quality asks for shadows on the air
   std::pmr::vector<ShadowCaster> shadowCasters;
+  AerialResources aerial;
   vk::Buffer frameState;
   vk::Buffer volumeState;
   vk::Buffer uniforms;  // per slot: frame, fog curve, volumes
@@ -341,6 +358,7 @@ struct ViewState {
   glm::dmat4 clipFromEye{1.0};
   double skyDepth = 0;
   WlkQuality quality{};
+  std::optional<WlkAerialPerspective> aerial;
   Governor governor;  // where the quality is governed
   ViewResources resources;
   Plan plan;

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "failure.hpp"
+#include "frame/aerial.hpp"
 #include "frame/ambient_record.hpp"
 #include "frame/light_store.hpp"
 #include "frame/resources.hpp"
@@ -19,13 +20,28 @@ using interface_::SliceConstants;
 using interface_::VolumeUniforms;
 
 vk::PipelineKey eyeKeyOf(const FrameCommands& c, const ViewTargets& targets,
-                         const PlannedVolume& planned) {
+                         const PlannedVolume& planned, bool froxels) {
   const Plan& plan = c.view.plan;
   const RecordVolume& volume = c.in.volumes[planned.index];
-  return eyeKey({plan.airKind(), plan.fog, planned.lit, static_cast<bool>(targets.depth),
-                 plan.allLight, volume.store != nullptr, planned.ambient},
+  const bool depth = targets.depth && !froxels;
+  return eyeKey({plan.airKind(), plan.fog, planned.lit, depth, plan.allLight,
+                 volume.store != nullptr, planned.ambient, froxels},
                 volume.state->fieldKind(), c.quality);
 }
+
+bool marchesFroxels(const FrameCommands& c) {
+  return c.aerial.recorded && c.aerial.firstSlice < c.aerial.endSlice;
+}
+
+// Where an eye pass reads its constants and keeps what it has seen.
+struct EyeTarget {
+  BoundSet& set;
+  const vk::Buffer& uniforms;
+  VkDeviceSize frame;
+  VkDeviceSize volume;
+  const vk::Buffer& frameState;
+  const vk::Buffer& volumeState;
+};
 
 vk::PipelineKey lightKeyOf(const FrameCommands& c, const RecordVolume& volume) {
   return lightKey({c.quality.forwardScattering, volume.store != nullptr},
@@ -108,7 +124,6 @@ class VolumeRecorder {
     const VkPipelineLayout layout = c_.pipelines.volumeLayout();
     c_.firstUse(c_.view.resources.lightBuffer);
     bind(c_.view.resources.lightBuffer);
-    const VkPipeline eyePipeline = c_.find(eyeKeyOf(c_, targets_, planned_));
     const VkPipeline lightPipeline = c_.find(lightKeyOf(c_, volume_));
     for (uint32_t slab = 0; slab < quality.sliceCount; slab += quality.batchSize) {
       SliceConstants push{};
@@ -124,7 +139,7 @@ class VolumeRecorder {
         c_.dispatch(lightPipeline, layout, &push, groups(quality.lightSize),
                     groups(quality.lightSize), light, lightIndex);
       }
-      dispatchEye(eyePipeline, push, eye, lightIndex + 1);
+      dispatchEye(push, eye, lightIndex + 1);
     }
   }
 
@@ -153,15 +168,45 @@ class VolumeRecorder {
                     groups(push.lightSize), groups(push.lightSize), light, lightIndex);
       }
     }
-    dispatchEye(c_.find(eyeKeyOf(c_, targets_, planned_)), push, eye, lightIndex + 1);
+    dispatchEye(push, eye, lightIndex + 1);
   }
 
-  void dispatchEye(VkPipeline pipeline, const SliceConstants& push, WlkPassStats& eye,
-                   uint32_t index) {
+  // Pixels, and froxels where they are asked for: neither reads what the other writes.
+  void dispatchEye(const SliceConstants& push, WlkPassStats& eye, uint32_t index) {
+    const VkPipelineLayout layout = c_.pipelines.volumeLayout();
     c_.orderShaders();
-    c_.dispatch(pipeline, c_.pipelines.volumeLayout(), &push,
+    c_.dispatch(c_.find(eyeKeyOf(c_, targets_, planned_, false)), layout, &push,
                 groups(covered_.rect.x1 - covered_.rect.x0),
                 groups(covered_.rect.y1 - covered_.rect.y0), eye, index);
+    if (marchesFroxels(c_)) {
+      use(froxelTarget());
+      const PixelRect rect = froxelRect(covered_.rect, c_.view);
+      c_.dispatch(c_.find(eyeKeyOf(c_, targets_, planned_, true)), layout, &push,
+                  groups(rect.x1 - rect.x0), groups(rect.y1 - rect.y0), c_.aerial.stats,
+                  c_.aerial.statsIndex, c_.aerial.endSlice - c_.aerial.firstSlice);
+      use(pixelTarget());
+    }
+  }
+
+  EyeTarget pixelTarget() const {
+    const ViewResources& r = c_.view.resources;
+    return {c_.slot.volumes[rank_], r.uniforms,   c_.in.slot * r.slotStride,
+            volumeOffset(),         r.frameState, r.volumeState ? r.volumeState : r.frameState};
+  }
+
+  EyeTarget froxelTarget() const {
+    const AerialResources& a = c_.view.resources.aerial;
+    return {c_.slot.froxels[rank_],
+            a.uniforms,
+            c_.in.slot * a.slotStride,
+            aerialVolumeOffset(c_.view, c_.in.slot, rank_),
+            a.frameState,
+            a.volumeState ? a.volumeState : a.frameState};
+  }
+
+  void use(const EyeTarget& target) {
+    c_.vk.CmdBindDescriptorSets(c_.commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+                                c_.pipelines.volumeLayout(), 0, 1, &target.set.set, 0, nullptr);
   }
 
   VkDeviceSize volumeOffset() const {
@@ -171,21 +216,33 @@ class VolumeRecorder {
 
   // Returns the volume's constants.
   VolumeUniforms bind(const vk::Image& light) {
+    if (marchesFroxels(c_)) {
+      PlannedVolume froxels = covered_;
+      froxels.rect = froxelRect(covered_.rect, c_.view);
+      write(froxelTarget(), froxels, light);
+    }
+    const EyeTarget pixels = pixelTarget();
+    const VolumeUniforms uniforms = write(pixels, covered_, light);
+    use(pixels);
+    return uniforms;
+  }
+
+  VolumeUniforms write(const EyeTarget& target, const PlannedVolume& covered,
+                       const vk::Image& light) {
     const ViewResources& r = c_.view.resources;
-    BoundSet& set = c_.slot.volumes[rank_];
-    const VkDeviceSize base = c_.in.slot * r.slotStride;
-    const VkDeviceSize offset = volumeOffset();
+    BoundSet& set = target.set;
     VolumeUniforms uniforms;
     const double* position = c_.view.camera.position;
-    fillVolume(*volume_.state, covered_, {position[0], position[1], position[2]}, c_.quality,
+    fillVolume(*volume_.state, covered, {position[0], position[1], position[2]}, c_.quality,
                uniforms);
-    std::memcpy(static_cast<char*>(r.uniforms.data()) + offset, &uniforms, sizeof uniforms);
+    std::memcpy(static_cast<char*>(target.uniforms.data()) + target.volume, &uniforms,
+                sizeof uniforms);
 
     Bindings& b = c_.bindings;
-    b.buffer(set, vk::BIND_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(), base,
-             sizeof(FrameUniforms));
-    b.buffer(set, vk::BIND_VOLUME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(), offset,
-             sizeof(VolumeUniforms));
+    b.buffer(set, vk::BIND_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, target.uniforms.handle(),
+             target.frame, sizeof(FrameUniforms));
+    b.buffer(set, vk::BIND_VOLUME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, target.uniforms.handle(),
+             target.volume, sizeof(VolumeUniforms));
     b.image(set, vk::BIND_LIGHT_STORAGE, light.view(), VK_NULL_HANDLE, VK_IMAGE_LAYOUT_GENERAL);
     b.image(set, vk::BIND_LIGHT_SAMPLED, light.view(), c_.pipelines.linear(),
             VK_IMAGE_LAYOUT_GENERAL);
@@ -193,7 +250,7 @@ class VolumeRecorder {
     b.image(set, vk::BIND_TABLE, volume_.state->tables[c_.quality.form()].image.view(),
             c_.pipelines.linear(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     b.buffer(set, vk::BIND_FOG_CURVE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, r.uniforms.handle(),
-             base + r.fogOffset, FOG_CURVE_BYTES);
+             c_.in.slot * r.slotStride + r.fogOffset, FOG_CURVE_BYTES);
     b.image(set, vk::BIND_DEPTH, targets_.depth ? targets_.depth.view : c_.in.dummy2d,
             c_.pipelines.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     bindSkyLookup(b, c_.pipelines, r, set, {vk::BIND_SKY_TABLE, vk::BIND_SKY_PEAK}, c_.in);
@@ -203,13 +260,10 @@ class VolumeRecorder {
     b.image(set, vk::BIND_VIEW_AMBIENT, r.viewAmbient ? r.viewAmbient.view() : c_.in.dummy3d,
             c_.pipelines.linear(),
             r.viewAmbient ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    const vk::Buffer& volumeState = r.volumeState ? r.volumeState : r.frameState;
-    b.buffer(set, vk::BIND_FRAME_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, r.frameState.handle(), 0,
-             r.frameState.size());
-    b.buffer(set, vk::BIND_VOLUME_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, volumeState.handle(), 0,
-             volumeState.size());
-    c_.vk.CmdBindDescriptorSets(c_.commands, VK_PIPELINE_BIND_POINT_COMPUTE,
-                                c_.pipelines.volumeLayout(), 0, 1, &set.set, 0, nullptr);
+    b.buffer(set, vk::BIND_FRAME_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+             target.frameState.handle(), 0, target.frameState.size());
+    b.buffer(set, vk::BIND_VOLUME_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+             target.volumeState.handle(), 0, target.volumeState.size());
     return uniforms;
   }
 
@@ -250,7 +304,10 @@ void findVolumePipelines(const FrameCommands& commands, const ViewTargets& targe
   if (!planned.drawn) {
     return;
   }
-  commands.find(eyeKeyOf(commands, targets, planned));
+  commands.find(eyeKeyOf(commands, targets, planned, false));
+  if (marchesFroxels(commands)) {
+    commands.find(eyeKeyOf(commands, targets, planned, true));
+  }
   const RecordVolume& volume = commands.in.volumes[planned.index];
   const uint32_t fields = volume.state->fieldKind();
   commands.find(lightKeyOf(commands, volume));

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "aerial_comp_spv.h"
 #include "ambient_cells_comp_spv.h"
 #include "ambient_gather_comp_spv.h"
 #include "ambient_restrict_comp_spv.h"
@@ -272,6 +273,8 @@ Pipelines::Compute Pipelines::computeOf(Pass pass) const {
       return {shadow_resolve_comp_spv, shadowLayout_};
     case Pass::TransportView:
       return {transport_view_comp_spv, transportLayout_};
+    case Pass::Aerial:
+      return {aerial_comp_spv, compositeLayout_};
     default:
       return {composite_comp_spv, compositeLayout_};
   }

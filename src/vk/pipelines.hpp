@@ -36,10 +36,11 @@ enum class Pass : uint32_t {
   AmbientGather,
   AmbientRestrict,
   AmbientSource,
-  AmbientView
+  AmbientView,
+  Aerial
 };
 
-constexpr uint32_t MAX_CONSTANTS = 13;
+constexpr uint32_t MAX_CONSTANTS = 14;
 
 // Values of constant_id 0, 1, 2, ... of the pass; booleans are 0 or 1.
 struct PipelineKey {

@@ -254,6 +254,7 @@ static void deviceFunctions(WlkContext context) {
   WlkVulkanRequirements requirements;
   WlkVulkanViewTargets targets;
   WlkLightShadow shadow;
+  WlkAerialPerspective aerial;
   WlkView view = {0};
   WlkVolume volume = {0};
   uint32_t passCount = 0;
@@ -272,6 +273,10 @@ static void deviceFunctions(WlkContext context) {
   INIT(WLK_STRUCT_LIGHT_SHADOW, shadow);
   REQUIRE(shadow.cascadeCount == 1 && shadow.clipFromWorld[3][15] == 1.0f);
   targets.lightShadow = &shadow;
+  INIT(WLK_STRUCT_AERIAL_PERSPECTIVE, aerial);
+  REQUIRE(targets.aerialRadiance == NULL && targets.aerialTransmittance == NULL);
+  REQUIRE(aerial.width == 64 && aerial.height == 36 && aerial.depth == 32);
+  REQUIRE(aerial.exponent == 2.0f && aerial.distance == 32000.0f);
   frame.frameIndex = 1;
   EXPECT(WLK_ERROR_WRONG_STATE, wlkPrepare(context));
   EXPECT(WLK_ERROR_WRONG_STATE, wlkBeginFrame(context, &frame));
@@ -287,6 +292,7 @@ static void deviceFunctions(WlkContext context) {
   REQUIRE(wlkVulkanForgetImage(context, VK_NULL_HANDLE) < 0);
   REQUIRE(wlkVulkanCmdUpdate(context, NULL) < 0);
   REQUIRE(wlkVulkanCmdRenderView(context, NULL, view, &targets) < 0);
+  EXPECT(WLK_ERROR_WRONG_STATE, wlkVulkanSetAerialPerspective(context, view, &aerial));
 }
 
 int main(void) {

@@ -51,15 +51,15 @@ constexpr std::array<Variation, 26> VARIATIONS = {{
     {"256-128", HIGH, 256, 0, 128, ALIGNED, FORWARD, Run::Full},
     {"512-256", HIGH, 512, 0, 256, ALIGNED, FORWARD, Run::Full},
     {"256-512", HIGH, 256, 0, 512, ALIGNED, FORWARD, Run::Full},
-    {"512-512", HIGH, 512, 0, 512, ALIGNED, FORWARD, Run::Full},
-    {"half-angle", HIGH, 0, 0, 0, HALF, FORWARD, Run::Quick},
-    {"half-angle-512", HIGH, 512, 0, 0, HALF, FORWARD, Run::Full},
+    {"512-512", HIGH, 512, 64, 512, ALIGNED, FORWARD, Run::Full},
+    {"half-angle", HIGH, 0, 64, 0, HALF, FORWARD, Run::Quick},
+    {"half-angle-512", HIGH, 512, 64, 0, HALF, FORWARD, Run::Full},
     {"integer", HIGH, 0, 0, 0, ALIGNED, INTEGER, Run::Curves},
     {"single", HIGH, 0, 0, 0, ALIGNED, SINGLE, Run::Quick},
     {"single-low", WLK_QUALITY_LOW, 0, 0, 0, ALIGNED, SINGLE, Run::Quick},
     {"single-medium", WLK_QUALITY_MEDIUM, 0, 0, 0, ALIGNED, SINGLE, Run::Full},
     {"single-ultra", WLK_QUALITY_ULTRA, 0, 0, 0, ALIGNED, SINGLE, Run::Full},
-    {"single-half-angle", HIGH, 0, 0, 0, HALF, SINGLE, Run::Full},
+    {"single-half-angle", HIGH, 0, 64, 0, HALF, SINGLE, Run::Full},
 }};
 
 bool wanted(Run run, bool quick, bool curves) {
@@ -97,10 +97,10 @@ const char* scatteringName(uint32_t scattering) {
 }
 
 Settings levelSettings(uint32_t level) {
-  constexpr std::array<std::array<uint32_t, 3>, LEVEL_COUNT> LEVELS = {
-      {{32, 32, 96}, {64, 64, 160}, {128, 64, 256}, {256, 64, 448}}};
-  const auto& [slices, batch, light] = LEVELS.at(level);
-  return {level, slices, batch, light, false, WLK_SCATTERING_FORWARD, false};
+  constexpr std::array<std::array<uint32_t, 2>, LEVEL_COUNT> LEVELS = {
+      {{32, 96}, {64, 160}, {128, 256}, {256, 448}}};
+  const auto& [slices, light] = LEVELS.at(level);
+  return {level, slices, 0, light, false, WLK_SCATTERING_FORWARD, false};
 }
 
 WlkQuality explicitQuality(const Settings& settings) {

@@ -19,7 +19,7 @@ constexpr uint32_t LEVEL_COUNT = 4;
 struct Settings {
   uint32_t level = WLK_QUALITY_HIGH;
   uint32_t sliceCount = 0;
-  uint32_t batchSize = 0;
+  uint32_t batchSize = 0;  // 0: the light of all slabs is kept
   uint32_t lightBufferSize = 0;
   bool halfAngle = false;
   uint32_t scattering = WLK_SCATTERING_FORWARD;

@@ -45,12 +45,12 @@ struct Camera {
 };
 
 struct Quality {
-  uint32_t level = WLK_QUALITY_HIGH;
   uint32_t slicing = WLK_SLICING_DEFAULT;
   uint32_t scattering = WLK_SCATTERING_SINGLE;
   uint32_t slices = 128;
   uint32_t batch = 0;
   uint32_t lightSize = 256;
+  uint32_t level = WLK_QUALITY_HIGH;
 };
 
 // Square image: premultiplied radiance and transmittance, RGB.

@@ -265,7 +265,7 @@ TEST(StructHeader, InitStructWritesDefaultsWithinTheSizeItIsGiven) {
   std::array<unsigned char, 512> bytes{};
   EXPECT_FAILS(wlkInitStruct(WLK_STRUCT_SKY, sizeof(WlkSky), nullptr), WLK_ERROR_INVALID_ARGUMENT,
                "structure");
-  for (const uint32_t unknown : {0u, 5u, 53u, 1006u, 0xffffffffu}) {
+  for (const uint32_t unknown : {0u, 5u, 53u, 1007u, 0xffffffffu}) {
     EXPECT_FAILS(wlkInitStruct(unknown, 64, bytes.data()), WLK_ERROR_UNKNOWN_STRUCT, "sType");
   }
   EXPECT_FAILS(wlkInitStruct(WLK_STRUCT_SKY, sizeof(WlkSky) - 1, bytes.data()),

@@ -162,7 +162,7 @@ TEST(Limits, OfTheQualityAreChecked) {
          q.control = WLK_CONTROL_ERROR;
          q.errorTarget = 0.1f;
        }},
-      {"flags", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.flags = 4; }},
+      {"flags", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.flags = 8; }},
       {"flags", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.flags = uint64_t{1} << 63; }}};
   for (const auto& test : cases) {
     auto quality = make<Q>();

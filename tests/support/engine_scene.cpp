@@ -65,16 +65,21 @@ FrameCounts EngineScene::renderFrame() {
   info.frameIndex = ++frame_;
   check(wlkBeginFrame(context, &info));
   const WlkVulkanImage color = describe(*target_, VK_IMAGE_LAYOUT_GENERAL);
-  const WlkVulkanViewTargets images = targets(color);
+  WlkVulkanViewTargets images = targets(color);
+  if (addTargets) {
+    addTargets(images);
+  }
   FrameCounts counts;
+  WlkResult result = WLK_SUCCESS;
   spy.run([&](VkCommandBuffer commands) {
     SpyDevice::counts() = {};
     check(wlkVulkanCmdUpdate(context, commands));
     counts.update = SpyDevice::counts();
     SpyDevice::counts() = {};
-    check(wlkVulkanCmdRenderView(context, commands, view, &images));
+    result = wlkVulkanCmdRenderView(context, commands, view, &images);
     counts.view = SpyDevice::counts();
   });
+  check(result);
   return counts;
 }
 

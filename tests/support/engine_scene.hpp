@@ -5,6 +5,7 @@
 
 #include <welkin/welkin_vulkan.h>
 
+#include <functional>
 #include <optional>
 
 #include "support/headless_scene.hpp"
@@ -36,6 +37,8 @@ class EngineScene : private SpiedEngine, public SceneBuilder {
   // A shadow map of the engine; both or none.
   const WlkLightShadow* lightShadow = nullptr;
   const WlkVulkanImage* shadowMap = nullptr;
+  // More targets for the frames to come.
+  std::function<void(WlkVulkanViewTargets&)> addTargets;
 
   WlkVulkanImage describe(const SpyImage& image, VkImageLayout layout) const;
   // What the frame's wlkVulkanCmdRenderView gets; `color` must live for the call.

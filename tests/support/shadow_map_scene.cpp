@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "support/shadow_map_scene.hpp"
 
-#include <cmath>
 #include <cstring>
+
+#include "support/half_float.hpp"
 
 namespace welkin::test {
 namespace {
@@ -12,15 +13,6 @@ SceneOptions tiny() {
   options.width = 8;
   options.height = 8;
   return options;
-}
-
-// An IEEE half as a float.
-float decoded(uint16_t bits) {
-  const int exponent = bits >> 10 & 31;
-  const float fraction = static_cast<float>(bits & 1023) / 1024.0f;
-  const float magnitude =
-      exponent == 0 ? std::ldexp(fraction, -14) : std::ldexp(1.0f + fraction, exponent - 15);
-  return (bits & 0x8000) != 0 ? -magnitude : magnitude;
 }
 
 }  // namespace
@@ -81,7 +73,7 @@ std::vector<float> ShadowMapScene::read() const {
     if (half_) {
       uint16_t bits = 0;
       std::memcpy(&bits, bytes + i * sizeof bits, sizeof bits);
-      value = decoded(bits);
+      value = decodedHalf(bits);
     } else {
       std::memcpy(&value, bytes + i * sizeof value, sizeof value);
     }

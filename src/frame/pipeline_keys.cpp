@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// Which pipelines the passes of a view need: by the state that a plan asks for, and all of them
+// that frames may ask for.
+#include "frame/resources.hpp"
+
+namespace welkin {
+
+vk::PipelineKey lightKey(const LightVariant& v, uint32_t fields) {
+  return ofFields({v.stored && !v.forward ? vk::Pass::LightDepth : vk::Pass::LightSlices,
+                   VK_FORMAT_UNDEFINED,
+                   {0, 0, 1, 0, v.forward}},
+                  fields);
+}
+
+vk::PipelineKey eyeKey(const EyeVariant& v, uint32_t fields, const SliceQuality& quality) {
+  vk::PipelineKey key =
+      ofFields({v.stored ? vk::Pass::EyeMarch : vk::Pass::EyeSlices,
+                VK_FORMAT_UNDEFINED,
+                {v.air, v.fog, v.light, 0, quality.forwardScattering, v.depth, v.allLight,
+                 quality.transport && v.light, quality.multipleSky, v.ambient}},
+               fields);
+  key.constants[10] = v.stored && (fields & VolumeState::GREY) != 0 ? 1 : 0;
+  const bool leaps = (fields & VolumeState::LEAPING) != 0;
+  key.constants[12] = v.stored && leaps && !quality.noSkip ? 1 : 0;
+  key.constants[13] = v.froxels;
+  return key;
+}
+
+vk::PipelineKey transportKey(vk::Pass pass, uint32_t fields) {
+  const bool reads = pass == vk::Pass::TransportDepth || pass == vk::Pass::TransportCells;
+  const vk::PipelineKey key{pass, VK_FORMAT_UNDEFINED, {}};
+  return reads ? ofFields(key, fields) : key;
+}
+
+vk::PipelineKey ambientKey(vk::Pass pass, uint32_t fields) {
+  const vk::PipelineKey key{pass, VK_FORMAT_UNDEFINED, {}};
+  return pass == vk::Pass::AmbientCells ? ofFields(key, fields) : key;
+}
+
+vk::PipelineKey skyTableKey(uint32_t air, bool fog, uint32_t lights, bool allLight) {
+  return {vk::Pass::SkyTable, VK_FORMAT_UNDEFINED, {air, fog, lights, allLight}};
+}
+
+// What the composite and the froxels share.
+static vk::PipelineKey layerKey(const CompositeVariant& v) {
+  vk::PipelineKey key;
+  key.constants = {v.air, v.fog, v.lights, v.volumes, v.depth, v.lights > 0 ? v.disk : 0, v.ground};
+  key.constants[9] = v.multiple && v.lights > 0 && (v.air > 0 || v.fog);
+  key.constants[10] = v.space && key.constants[9] != 0;
+  key.constants[11] = v.allLight && key.constants[9] != 0;
+  key.constants[12] = v.lights > 0 && (v.air > 0 || v.fog) ? v.shadows : 0;
+  return key;
+}
+
+vk::PipelineKey aerialKey(CompositeVariant v) {
+  // Every ray ends at its froxel: nothing of the sky behind is seen.
+  v.depth = v.ground = false;
+  v.disk = 0;
+  vk::PipelineKey key = layerKey(v);
+  key.pass = vk::Pass::Aerial;
+  return key;
+}
+
+vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& v) {
+  vk::PipelineKey key = layerKey(v);
+  if (info.composite == WLK_COMPOSITE_BLEND) {
+    key.pass = vk::Pass::CompositeBlend;
+    key.format = targetFormat(info.targetFormat);
+  } else {
+    key.pass = vk::Pass::Composite;
+    key.constants[7] = info.composite == WLK_COMPOSITE_SEPARATE;
+    key.constants[8] = info.targetFormat == WLK_TARGET_RGBA16_FLOAT;
+  }
+  return key;
+}
+
+void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
+                      const SceneFeatures& features, std::span<const uint32_t> fieldKinds) {
+  // Every state the frame may find the scene in without another wlkPrepare: light above or below
+  // the horizon, something opaque or not, volumes in view or not.
+  const SliceQuality quality = resolveQuality(view.quality);
+  const bool sky = features.sky && (view.info.layers & WLK_LAYER_SKY) != 0;
+  const uint32_t air = sky ? (features.absorber ? 2 : 1) : 0;
+  const bool fog = features.fog && (view.info.layers & WLK_LAYER_FOG) != 0;
+  for (uint32_t lights = 0; lights <= features.lights; ++lights) {
+    for (const bool depth : {false, true}) {
+      for (const uint32_t fields : fieldKinds) {
+        for (const bool stored : {false, true}) {
+          if (!(stored ? features.stores : features.batches)) {
+            continue;
+          }
+          const bool open = lights > 0 && sky && !fog && quality.multipleSky;
+          for (const bool ambient : {false, features.ambient && quality.ambientCells > 0}) {
+            for (const bool all : {false, open}) {
+              EyeVariant v{air, fog, lights > 0, depth, all, stored, ambient};
+              pipelines.prepare(eyeKey(v, fields, quality));
+              v.froxels = true;
+              if (view.aerial && !depth) {
+                pipelines.prepare(eyeKey(v, fields, quality));
+              }
+            }
+          }
+        }
+      }
+      CompositeVariant v{};
+      v.air = air;
+      v.fog = fog;
+      v.lights = lights;
+      v.volumes = !fieldKinds.empty();
+      v.depth = depth;
+      if (sky && (view.info.layers & WLK_LAYER_SUN_DISK) != 0) {
+        v.disk = features.shapedDisk ? 2 : 1;
+      }
+      v.ground = sky && (view.info.layers & WLK_LAYER_GROUND) != 0;
+      v.multiple = quality.multipleSky && lights > 0;
+      const bool open = v.multiple && sky && !fog;
+      const auto prepare = [&] {
+        pipelines.prepare(compositeKey(view.info, v));
+        if (view.aerial) {
+          pipelines.prepare(aerialKey(v));
+        }
+      };
+      const uint32_t kinds = (quality.volumeShadows && v.volumes && lights > 0 ? 1U : 0U) |
+                             (quality.lightShadows && lights > 0 ? 2U : 0U);
+      for (uint32_t shadows = 0; shadows <= kinds; ++shadows) {
+        v.shadows = shadows & kinds;
+        v.space = v.allLight = false;
+        prepare();
+        v.space = v.multiple && features.space;
+        prepare();
+        v.space = false;
+        v.allLight = open;
+        prepare();
+      }
+    }
+  }
+  for (uint32_t lights = 1; lights <= features.lights; ++lights) {
+    if (quality.multipleSky && (sky || fog)) {
+      pipelines.prepare(skyTableKey(air, fog, lights, false));
+      if (!fog) {
+        pipelines.prepare(skyTableKey(air, fog, lights, true));
+      }
+    }
+  }
+  for (const uint32_t fields : fieldKinds) {
+    for (const bool stored : {false, true}) {
+      if (stored ? features.stores : features.batches) {
+        pipelines.prepare(lightKey({quality.forwardScattering, stored}, fields));
+      }
+    }
+    if (quality.transport) {
+      for (const vk::Pass pass : TRANSPORT_PASSES) {
+        pipelines.prepare(transportKey(pass, fields));
+      }
+    }
+    for (const vk::Pass pass : AMBIENT_PASSES) {
+      if (features.ambient && quality.ambientCells > 0) {
+        pipelines.prepare(ambientKey(pass, fields));
+      }
+    }
+  }
+}
+
+}  // namespace welkin
