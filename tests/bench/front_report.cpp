@@ -85,9 +85,8 @@ Ordered reportRow(const Case& one, const Row& row) {
   const FrameCounts& counts = row.counts;
   const Timing& timing = row.timing;
   const uint64_t batches =
-      settings.batchSize == 0
-          ? 1
-          : (settings.sliceCount + settings.batchSize - 1) / settings.batchSize;
+      settings.batchSize == 0 ? 1
+                              : (settings.sliceCount + settings.batchSize - 1) / settings.batchSize;
   return {{"case", one.name},
           {"method", row.method.name},
           {"kind", row.method.isLevel ? "level" : "method"},
