@@ -61,6 +61,8 @@ class Lint:
                 for line, what in layers.findings(self.root, relative, text):
                     self.report(path, line, "layer", what)
                 self.cited(path, lines)
+            if path.suffix in SHADERS:
+                self.loops(path, text)
             if relative.startswith("shaders/model/"):
                 for line, what in literals.findings(text):
                     self.report(path, line, "literal", what)
@@ -92,6 +94,14 @@ class Lint:
             for key in cited_keys(line):
                 if key not in self.equations:
                     self.report(path, number, "equation", f"{key} has no row in docs/equations.md")
+
+    def loops(self, path, text):
+        # lavapipe computes what such a loop leaves once more for lanes that have ended.
+        for end in re.finditer(r"\} while \(", text):
+            count = re.match(r"(\w+) (?:<|<=|>|>=) \w+\);", text[end.end():])
+            if not count or not re.search(rf"\bu?int {count[1]}\b", text):
+                line = text.count("\n", 0, end.start()) + 1
+                self.report(path, line, "loop", "test in front where lanes may end apart")
 
     def run_format(self):
         files = [str(p) for p in self.files() if p.suffix in CPP]

@@ -70,6 +70,8 @@ PLANTED = [
     ("literal", "shaders/model/numeric.glsl", SPDX + "real a() { return real(0.1f); }\n"),
     ("literal", "shaders/model/numeric.glsl", SPDX + "real a() { return real(2.0 * b); }\n"),
     ("literal", "shaders/model/numeric.glsl", SPDX + "real a() { return real(1e-5f); }\n"),
+    ("loop", "shaders/pass/a.comp", SPDX + "float t;\ndo {\n} while (t < end);\n"),
+    ("loop", "shaders/pass/a.comp", SPDX + "int i;\ndo {\n} while (i < 4 && t < end);\n"),
     ("equation", "src/vk/device.hpp", SPDX + "// as in [R04] Eq. 2\n"),
     ("equation", "src/vk/device.hpp", SPDX + "// as in [J23] Eq. 1\n"),
     ("equation", "src/vk/device.hpp", SPDX + "// as in [R04] Eq. 3-6\n"),

@@ -43,13 +43,11 @@ void main() {
   vec3 lightMove = vec3(dot(scene.lightU.xyz, boxMove), dot(scene.lightV.xyz, boxMove),
                         dt * dot(scene.plane.xyz, direction) / layers);
   float sum = 0.0;
-  if (left > 0.0) {
-    do {
-      sum += textureLod(density, box, 0.0).x * textureLod(lightVolume, light, 0.0).x;
-      box += boxMove;
-      light += lightMove;
-      left -= 1.0;
-    } while (left > 0.0);
+  while (left > 0.0) {
+    sum += textureLod(density, box, 0.0).x * textureLod(lightVolume, light, 0.0).x;
+    box += boxMove;
+    light += lightMove;
+    left -= 1.0;
   }
   imageStore(target, ivec2(pixel), vec4(sum));
 }
