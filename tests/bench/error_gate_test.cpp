@@ -92,12 +92,13 @@ TEST(ErrorGateRules, RowsAndReferencesMayNotGoMissing) {
 
 // The results name the settings behind each level: the copy in front_methods.cpp is the library's.
 TEST(FrontMethods, LevelSettingsAreTheLibrarys) {
-  World world(caseOf("slab-1"), false);
-  const host::RasterResult opaque = world.makeOpaque();
   for (const Method& method : levelMethods()) {
     std::vector<host::Image> pictures;
     std::vector<uint64_t> invocations;
     for (const WlkQuality& quality : {qualityOf(method), explicitQuality(method.settings)}) {
+      // A world of its own: views share the light of the volumes.
+      World world(caseOf("slab-1"), false);
+      const host::RasterResult opaque = world.makeOpaque();
       const WlkView view = world.addView(quality);
       world.prepare();
       world.render(view, opaque);
