@@ -364,7 +364,9 @@ enum {
   WLK_PASS_VOLUME_AMBIENT = 7,
   /** Aerial perspective for the engine's transparents (welkin_vulkan.h), its march through volumes
    *  included. */
-  WLK_PASS_AERIAL_PERSPECTIVE = 8
+  WLK_PASS_AERIAL_PERSPECTIVE = 8,
+  /** The volumes' mean distance per pixel (welkin_vulkan.h). */
+  WLK_PASS_VOLUME_DISTANCE = 9
 };
 
 /** Why a pass was recorded or not. */

@@ -120,6 +120,11 @@ typedef struct WlkVulkanViewTargets {
    *  for it. Default null. */
   const WlkVulkanImage* aerialRadiance;
   const WlkVulkanImage* aerialTransmittance;
+  /** Distance of the volumes (wlkVulkanSetVolumeDistance), written in any mode. R: mean distance
+   *  from the eye at which they hide what lies behind them, along the ray, m; 0 where there are
+   *  none. G, of formats that have it: the part of the background that they hide, [0, 1].
+   *  R16_SFLOAT, R32_SFLOAT, R16G16_SFLOAT or R32G32_SFLOAT. Default null. */
+  const WlkVulkanImage* volumeDistance;
 } WlkVulkanViewTargets;
 
 /** Makes a field of a volume read the engine's own 3-D image instead of Welkin's copy; null goes
@@ -172,6 +177,15 @@ typedef struct WlkAerialPerspective {
  *  INVALID_ARGUMENT, WRONG_STATE outside engine-device mode; LIMIT_EXCEEDED by wlkPrepare. */
 WLK_API WlkResult wlkVulkanSetAerialPerspective(WlkContext context, WlkView view,
                                                 const WlkAerialPerspective* aerial);
+
+/* --------------------------------------------------------------------- distance of the volumes */
+
+/** 1: wlkVulkanCmdRenderView may get an image for the volumes' distance, for reprojection and depth
+ *  of field; 0, as views begin: it may not. It is the integral of distance x transmittance x
+ *  extinction along the ray, up to the opaque surface, over that without the distance: air and fog
+ *  do not count, nor does with WLK_SCATTERING_ALL_ORDERS what forward peaks only turn aside. 1
+ *  needs wlkPrepare. [C] Errors: INVALID_ARGUMENT, WRONG_STATE outside engine-device mode. */
+WLK_API WlkResult wlkVulkanSetVolumeDistance(WlkContext context, WlkView view, uint32_t enabled);
 
 /* -------------------------------------------------------------------------------- shadow maps */
 

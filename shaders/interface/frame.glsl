@@ -53,6 +53,7 @@ struct FrameUniforms {
   // Of froxels, which the viewport counts then: distance of the last slice (m), exponent, 1 over
   // the slices less one.
   vec4 froxels;
-  // First and last slice in which volumes are marched, 1 where the images have half floats.
+  // First and last slice in which volumes are marched; 1 where their images, or that of the
+  // volumes' distance, have half floats.
   vec4 froxelRange;
 };

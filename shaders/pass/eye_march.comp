@@ -25,6 +25,7 @@ layout(constant_id = 9) const bool AMBIENT = false;
 layout(constant_id = 10) const bool GREY = false;
 // Slices of froxels, one behind the other, instead of pixels: rays end at the slice's distance.
 layout(constant_id = 13) const bool FROXELS = false;
+layout(constant_id = 14) const bool DISTANCE = false;
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
 layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volume; };
@@ -43,6 +44,9 @@ layout(set = 0, binding = 15) uniform sampler3D viewSource;
 layout(set = 0, binding = 16) uniform sampler3D pages;
 layout(set = 0, binding = 17) uniform sampler3D viewAmbient;
 layout(set = 0, binding = 18) uniform sampler3D leaps;
+// Per pixel in xy, of all volumes: sum of what is hidden at a distance (a part of the background)
+// times the distance (m), and of what is hidden.
+layout(set = 0, binding = 19, std430) buffer Distances { vec4 distances[]; };
 layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "../interface/sky_table.glsl"
@@ -137,6 +141,7 @@ void main() {
   Span span = rayBox(volume.boxFromEye[3].xyz, m.boxStep, vec3(0.0f), vec3(1.0f));
   span.end = min(min(span.end, surface), span.begin + LONGEST_RAY);
   vec4 state = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  vec2 hidden = vec2(0.0f);
   if (span.end > span.begin) {
     float nearest = dot(volume.middle.xyz, direction);
     m.box = volume.boxFromEye[3].xyz + nearest * m.boxStep;
@@ -215,6 +220,13 @@ void main() {
       if (AIR_SEEN) {
         sum += air.radiance * (through - passed);
       }
+      if (DISTANCE) {
+        // Mean of u e^(-x u) over the stretch, u from 0 to 1, times x.
+        float x = beta * stretch * keep;
+        float inside = x < 0.01f ? 0.5f * x : phi1(x) - exp(-min(x, EXP_CUT));
+        vec2 part = vec2(x * phi1(x) * (nearest + s) + inside * stretch, x * phi1(x));
+        hidden += through * part;
+      }
       through = passed;
       s = next;
       first += 1.0f;
@@ -222,6 +234,13 @@ void main() {
     state = vec4(sum, exp(-min(eyeDepth * keep, EXP_CUT)));
   }
 
+  if (DISTANCE) {
+    vec4 kept = vec4(hidden, hidden);
+    if ((slice.flags & SLICE_FIRST_VOLUME) == 0u) {
+      kept.xy = distances[index].xy + frameState[index].w * hidden;
+    }
+    distances[index] = kept;
+  }
   if ((slice.flags & SLICE_FIRST_VOLUME) == 0u) {
     vec4 front = frameState[index];
     state = vec4(front.xyz + front.w * state.xyz, front.w * state.w);

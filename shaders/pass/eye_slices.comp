@@ -22,6 +22,7 @@ layout(constant_id = 8) const bool MULTIPLE_ENABLED = true;
 layout(constant_id = 9) const bool AMBIENT = false;
 // Slices of froxels, one behind the other, instead of pixels: rays end at the slice's distance.
 layout(constant_id = 13) const bool FROXELS = false;
+layout(constant_id = 14) const bool DISTANCE = false;
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
 layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volume; };
@@ -40,6 +41,9 @@ layout(set = 0, binding = 14) uniform sampler3D skyPeak;
 layout(set = 0, binding = 15) uniform sampler3D viewSource;
 layout(set = 0, binding = 16) uniform sampler3D pages;
 layout(set = 0, binding = 17) uniform sampler3D viewAmbient;
+// Per pixel, of all volumes and of this one: sum of what is hidden at a distance (a part of the
+// background) times the distance (m), and of what is hidden.
+layout(set = 0, binding = 19, std430) buffer Distances { vec4 distances[]; };
 layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "../interface/sky_table.glsl"
@@ -138,6 +142,10 @@ void main() {
   if ((slice.flags & SLICE_FIRST_BATCH) == 0u) {
     state = volumeState[index];
   }
+  vec2 hidden = vec2(0.0f);
+  if (DISTANCE && (slice.flags & SLICE_FIRST_BATCH) == 0u) {
+    hidden = distances[index].zw;
+  }
 
   if (last > t && !(rate > 0.0f && state.w < RAY_ENDS)) {
     float angle = phaseCoordinate(oneMinusCosine(direction, frame.lights[0].direction.xyz));
@@ -159,6 +167,7 @@ void main() {
       maxStep = min(maxStep, gridStep(boxStep));
     }
     vec4 batch = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    vec2 batchHidden = vec2(0.0f);
     // Plane at the far side of the current slab, in ray order; the half step keeps rounding at a
     // batch's edge from repeating its last slab.
     float plane = enterPlane;
@@ -211,6 +220,11 @@ void main() {
       float average = phi1(x) * dt;  // (1 - e^-x) / extinction without the division
       float opacity = x * phi1(x);
       batch.xyz += batch.w * (source * average * air.transmittance + air.radiance * opacity);
+      if (DISTANCE) {
+        // Mean of u e^(-x u) over the step, u from 0 to 1, times x.
+        float inside = x < 0.01f ? 0.5f * x : phi1(x) - (1.0f - opacity);
+        batchHidden += batch.w * vec2(opacity * t + inside * dt, opacity);
+      }
       batch.w *= 1.0f - opacity;
       t += dt;
       left -= 1u;
@@ -224,6 +238,9 @@ void main() {
       guard += 1u;
     }
 
+    if (DISTANCE) {
+      hidden = rate > 0.0f ? hidden + state.w * batchHidden : batchHidden + batch.w * hidden;
+    }
     if (rate > 0.0f) {
       state = vec4(state.xyz + state.w * batch.xyz, state.w * batch.w);
     } else {
@@ -231,6 +248,16 @@ void main() {
     }
   }
 
+  if (DISTANCE) {
+    vec4 kept = vec4(hidden, hidden);
+    if ((slice.flags & SLICE_FIRST_VOLUME) == 0u) {
+      kept.xy = distances[index].xy;
+      if ((slice.flags & SLICE_LAST_BATCH) != 0u) {
+        kept.xy += frameState[index].w * hidden;
+      }
+    }
+    distances[index] = kept;
+  }
   if ((slice.flags & SLICE_LAST_BATCH) != 0u) {
     if ((slice.flags & SLICE_FIRST_VOLUME) == 0u) {
       vec4 front = frameState[index];

@@ -224,6 +224,7 @@ void WlkContext_T::forgetBindings() {
       for (ViewSlot& slot : view->resources.slots) {
         slot.composite.bound = {};
         slot.aerial.bound = {};
+        slot.distance.bound = {};
         for (BoundSet& set : slot.froxels) {
           set.bound = {};
         }

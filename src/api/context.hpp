@@ -156,6 +156,10 @@ void retireShadowMap(WlkContext_T& context, ShadowMapState& map);
 void importAerial(WlkContext_T& context, const ViewState& view, const WlkVulkanViewTargets& targets,
                   ViewTargets& images);
 
+// The image of the volumes' distance among a view's targets, if there is one.
+void importDistance(WlkContext_T& context, const ViewState& view,
+                    const WlkVulkanViewTargets& targets, ViewTargets& images);
+
 // Records pending uploads and first-use transitions.
 void recordUpdate(WlkContext_T& context, VkCommandBuffer commands);
 

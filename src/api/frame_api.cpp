@@ -349,6 +349,7 @@ WlkResult wlkPrepare(WlkContext context) {
       carrier.info = view->info;
       carrier.quality = view->quality;
       carrier.aerial = view->aerial;
+      carrier.volumeDistance = view->volumeDistance;
       features.space = nearSpace(c, *view);
       chooseStores(c, *view, features);
       prepareView(device, *c.pipelines, carrier, c.volumes.count(), c.maxFramesInFlight, features,

@@ -315,6 +315,7 @@ WlkResult wlkVulkanCmdRenderView(WlkContext context, VkCommandBuffer commandBuff
     }
     ViewTargets images = importTargets(c, state, t);
     importAerial(c, state, t, images);
+    importDistance(c, state, t, images);
     recordFrame(c, commandBuffer, state, images);
     return WLK_SUCCESS;
   });

@@ -23,7 +23,12 @@ vk::PipelineKey eyeKey(const EyeVariant& v, uint32_t fields, const SliceQuality&
   const bool leaps = (fields & VolumeState::LEAPING) != 0;
   key.constants[12] = v.stored && leaps && !quality.noSkip ? 1 : 0;
   key.constants[13] = v.froxels;
+  key.constants[14] = v.distance;
   return key;
+}
+
+vk::PipelineKey distanceKey() {
+  return {vk::Pass::VolumeDistance, VK_FORMAT_UNDEFINED, {}};
 }
 
 vk::PipelineKey transportKey(vk::Pass pass, uint32_t fields) {
@@ -94,6 +99,11 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
             for (const bool all : {false, open}) {
               EyeVariant v{air, fog, lights > 0, depth, all, stored, ambient};
               pipelines.prepare(eyeKey(v, fields, quality));
+              v.distance = true;
+              if (view.volumeDistance) {
+                pipelines.prepare(eyeKey(v, fields, quality));
+              }
+              v.distance = false;
               v.froxels = true;
               if (view.aerial && !depth) {
                 pipelines.prepare(eyeKey(v, fields, quality));
@@ -133,6 +143,9 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
         prepare();
       }
     }
+  }
+  if (view.volumeDistance) {
+    pipelines.prepare(distanceKey());
   }
   for (uint32_t lights = 1; lights <= features.lights; ++lights) {
     if (quality.multipleSky && (sky || fog)) {

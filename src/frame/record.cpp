@@ -7,6 +7,7 @@
 
 #include "frame/aerial.hpp"
 #include "frame/composite_record.hpp"
+#include "frame/distance_record.hpp"
 #include "frame/frame_commands.hpp"
 #include "frame/resources.hpp"
 #include "frame/sky_bindings.hpp"
@@ -19,7 +20,7 @@ namespace {
 
 using interface_::FrameUniforms;
 
-constexpr size_t IMAGES = 7;  // of the engine, at most
+constexpr size_t IMAGES = 8;  // of the engine, at most
 
 glm::dvec3 eyeOf(const ViewState& view) {
   return {view.camera.position[0], view.camera.position[1], view.camera.position[2]};
@@ -54,6 +55,7 @@ class Recorder {
     for (const PlannedVolume& volume : view_.plan.volumes) {
       recordVolume(c_, targets_, volume);
     }
+    recordVolumeDistance(c_, targets_);
     recordComposite();
     recordAerial(c_, targets_, counterOffset());
     if (anything_) {
@@ -87,6 +89,9 @@ class Recorder {
       compositePipeline_ =
           c_.find(compositeKeyOf(c_.pipelines, view_, static_cast<bool>(targets_.depth)));
     }
+    if (targets_.volumeDistance) {
+      c_.find(distanceKey());
+    }
     if (c_.aerial.recorded) {
       c_.find(aerialKeyOf(c_.pipelines, view_));
     }
@@ -109,7 +114,8 @@ class Recorder {
 
   void start() {
     const Plan& plan = view_.plan;
-    anything_ = plan.composite || plan.drawnCount > 0 || c_.aerial.recorded;
+    anything_ = plan.composite || plan.drawnCount > 0 || c_.aerial.recorded ||
+                static_cast<bool>(targets_.volumeDistance);
     FrameRecord& record = view_.record;
     record.stats = {};
     record.stats.frameIndex = in_.frameIndex;
@@ -127,6 +133,7 @@ class Recorder {
     if (plan.lightShadows) {
       fillLightShadow(targets_.lightShadow, eyeOf(view_), nearestVolume(), frame);
     }
+    frame.froxelRange.z = targets_.distanceHalf ? 1.0f : 0.0f;
     std::memcpy(memory, &frame, sizeof frame);
     skyKey_ = skyTableKeyOf(frame);
     if (plan.fog) {
@@ -222,7 +229,8 @@ class Recorder {
             &targets_.target1,
             &targets_.shadowMap,
             &targets_.aerialRadiance,
-            &targets_.aerialTransmittance};
+            &targets_.aerialTransmittance,
+            &targets_.volumeDistance};
   }
   // Whether the commands use image `i` of the list, if there is one.
   bool used(size_t i) const { return anything_ && (i != 4 || view_.plan.lightShadows); }

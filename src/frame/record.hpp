@@ -31,6 +31,8 @@ struct ViewTargets {
   TargetImage aerialRadiance;  // both or none
   TargetImage aerialTransmittance;
   bool aerialHalf = false;  // these two hold half floats
+  TargetImage volumeDistance;
+  bool distanceHalf = false;
 };
 
 // Volumes of the context in plan order of index, with the views of the engine's field images.

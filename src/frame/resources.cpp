@@ -62,13 +62,13 @@ class Draft {
 VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t volumes,
                           bool froxels) {
   const uint32_t more = froxels ? 1 : 0;
-  const uint32_t sets = slots * ((3 + more) * volumes + 2 + more);
+  const uint32_t sets = slots * ((3 + more) * volumes + 3 + more);
   const std::array sizes{VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-                                              slots * ((6 + 2 * more) * volumes + 2 + more)},
+                                              slots * ((6 + 2 * more) * volumes + 3 + more)},
                          VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                              slots * ((8 + 3 * more) * volumes + 3 + 3 * more)},
+                                              slots * ((9 + 4 * more) * volumes + 4 + 3 * more)},
                          VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
-                                              slots * ((3 + more) * volumes + 4 + 2 * more)},
+                                              slots * ((3 + more) * volumes + 5 + 2 * more)},
                          VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                               slots * ((23 + 13 * more) * volumes + 8 + 7 * more)}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
@@ -101,6 +101,7 @@ void makeSlots(vk::Device& device, const vk::Pipelines& pipelines, ViewResources
   for (uint32_t i = 0; i < framesInFlight; ++i) {
     ViewSlot& slot = r.slots.emplace_back(memory);
     slot.composite.set = makeSet(device, r.pool, pipelines.compositeSetLayout());
+    slot.distance.set = makeSet(device, r.pool, pipelines.distanceSetLayout());
     slot.skyTable.set = makeSet(device, r.pool, pipelines.skySetLayout());
     slot.volumes.resize(r.volumeCapacity);
     for (BoundSet& set : slot.volumes) {
@@ -278,10 +279,13 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
       vk::Buffer(device, counterStride * framesInFlight,
                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
   const uint32_t batches = (quality.sliceCount + quality.batchSize - 1) / quality.batchSize;
-  r.queryCount = 5 + volumeCount * ((view.aerial ? 3 : 2) * batches + 3);
+  r.queryCount = 6 + volumeCount * ((view.aerial ? 3 : 2) * batches + 3);
   const VkDeviceSize pixels = VkDeviceSize{info.width} * info.height;
   const VkDeviceSize stateBytes = volumeCount > 0 ? pixels * 16 : 16;
   r.frameState = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
+  if (view.volumeDistance) {
+    r.distances = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
+  }
   if (volumeCount > 1 && batches > 1 && features.batches) {
     r.volumeState = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
   }

@@ -27,7 +27,7 @@ VkFormat targetFormat(uint32_t welkinFormat);
 
 // Lines that a view's statistics have at most.
 constexpr size_t passRoom(size_t volumes) {
-  return 4 + 4 * volumes;
+  return 5 + 4 * volumes;
 }
 
 // (Re)makes what the view needs for up to `volumeCount` volumes. Strong guarantee: on failure the
@@ -57,7 +57,9 @@ struct EyeVariant {
   bool stored;  // marches through a store
   bool ambient;
   bool froxels = false;
+  bool distance = false;
 };
+vk::PipelineKey distanceKey();
 vk::PipelineKey eyeKey(const EyeVariant& variant, uint32_t fields, const SliceQuality& quality);
 inline constexpr std::array TRANSPORT_PASSES{
     vk::Pass::TransportDepth,  vk::Pass::TransportCells,       vk::Pass::TransportSweep,

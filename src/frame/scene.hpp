@@ -233,6 +233,7 @@ struct TransportGrid {
 struct ViewSlot {
   BoundSet composite;
   BoundSet aerial;
+  BoundSet distance;
   BoundSet skyTable;
   std::pmr::vector<BoundSet> volumes;
   std::pmr::vector<BoundSet> froxels;    // of the volumes, where the view has aerial perspective
@@ -319,6 +320,7 @@ struct ViewResources {
   vk::Image shadowImage;  // where the quality asks for shadows on the air
   std::pmr::vector<ShadowCaster> shadowCasters;
   AerialResources aerial;
+  vk::Buffer distances;  // of the volumes, where the view tells them
   vk::Buffer frameState;
   vk::Buffer volumeState;
   vk::Buffer uniforms;  // per slot: frame, fog curve, volumes
@@ -359,6 +361,7 @@ struct ViewState {
   double skyDepth = 0;
   WlkQuality quality{};
   std::optional<WlkAerialPerspective> aerial;
+  bool volumeDistance = false;
   Governor governor;  // where the quality is governed
   ViewResources resources;
   Plan plan;

@@ -24,8 +24,9 @@ vk::PipelineKey eyeKeyOf(const FrameCommands& c, const ViewTargets& targets,
   const Plan& plan = c.view.plan;
   const RecordVolume& volume = c.in.volumes[planned.index];
   const bool depth = targets.depth && !froxels;
+  const bool distance = targets.volumeDistance && !froxels;
   return eyeKey({plan.airKind(), plan.fog, planned.lit, depth, plan.allLight,
-                 volume.store != nullptr, planned.ambient, froxels},
+                 volume.store != nullptr, planned.ambient, froxels, distance},
                 volume.state->fieldKind(), c.quality);
 }
 
@@ -264,6 +265,9 @@ class VolumeRecorder {
              target.frameState.handle(), 0, target.frameState.size());
     b.buffer(set, vk::BIND_VOLUME_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
              target.volumeState.handle(), 0, target.volumeState.size());
+    const vk::Buffer& distances = r.distances ? r.distances : r.frameState;
+    b.buffer(set, vk::BIND_DISTANCES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, distances.handle(), 0,
+             distances.size());
     return uniforms;
   }
 

@@ -29,6 +29,7 @@
 #include "transport_source_comp_spv.h"
 #include "transport_sweep_comp_spv.h"
 #include "transport_view_comp_spv.h"
+#include "volume_distance_comp_spv.h"
 
 namespace welkin::vk {
 namespace {
@@ -120,6 +121,7 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
     volume[BIND_FRAME_STATE].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     volume[BIND_VOLUME_STATE].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     volume[BIND_FOG_CURVE].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    volume[BIND_DISTANCES].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     volumeSet_ = makeSetLayout(device_, volume);
     const std::array composite{
         binding(BIND_COMPOSITE_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
@@ -171,6 +173,11 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
     shadow[BIND_SHADOW_TARGET].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     shadowSet_ = makeSetLayout(device_, shadow);
     shadowLayout_ = makeLayout(device_, shadowSet_);
+    const std::array distance{binding(BIND_DISTANCE_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
+                              binding(BIND_DISTANCE_SUMS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
+                              binding(BIND_DISTANCE_TARGET, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE)};
+    distanceSet_ = makeSetLayout(device_, distance);
+    distanceLayout_ = makeLayout(device_, distanceSet_);
     skySet_ = makeSetLayout(device_, sky);
     skyLayout_ = makeLayout(device_, skySet_);
     compositeSet_ = makeSetLayout(device_, composite);
@@ -200,6 +207,8 @@ void Pipelines::destroy() {
   vk.DestroyDescriptorSetLayout(device, skySet_, nullptr);
   vk.DestroyPipelineLayout(device, ambientLayout_, nullptr);
   vk.DestroyDescriptorSetLayout(device, ambientSet_, nullptr);
+  vk.DestroyPipelineLayout(device, distanceLayout_, nullptr);
+  vk.DestroyDescriptorSetLayout(device, distanceSet_, nullptr);
   vk.DestroyPipelineLayout(device, shadowLayout_, nullptr);
   vk.DestroyDescriptorSetLayout(device, shadowSet_, nullptr);
   vk.DestroyPipelineLayout(device, transportLayout_, nullptr);
@@ -273,6 +282,8 @@ Pipelines::Compute Pipelines::computeOf(Pass pass) const {
       return {shadow_resolve_comp_spv, shadowLayout_};
     case Pass::TransportView:
       return {transport_view_comp_spv, transportLayout_};
+    case Pass::VolumeDistance:
+      return {volume_distance_comp_spv, distanceLayout_};
     case Pass::Aerial:
       return {aerial_comp_spv, compositeLayout_};
     default:

@@ -37,10 +37,11 @@ enum class Pass : uint32_t {
   AmbientRestrict,
   AmbientSource,
   AmbientView,
-  Aerial
+  Aerial,
+  VolumeDistance
 };
 
-constexpr uint32_t MAX_CONSTANTS = 14;
+constexpr uint32_t MAX_CONSTANTS = 15;
 
 // Values of constant_id 0, 1, 2, ... of the pass; booleans are 0 or 1.
 struct PipelineKey {
@@ -68,7 +69,8 @@ enum VolumeBinding : uint32_t {
   BIND_PAGES = 16,
   BIND_VIEW_AMBIENT = 17,
   BIND_LEAPS = 18,
-  VOLUME_BINDING_COUNT = 19
+  BIND_DISTANCES = 19,
+  VOLUME_BINDING_COUNT = 20
 };
 enum CompositeBinding : uint32_t {
   BIND_COMPOSITE_FRAME = 0,
@@ -126,6 +128,12 @@ enum ShadowBinding : uint32_t {
   SHADOW_BINDING_COUNT = 8
 };
 
+enum DistanceBinding : uint32_t {
+  BIND_DISTANCE_FRAME = 0,
+  BIND_DISTANCE_SUMS = 1,
+  BIND_DISTANCE_TARGET = 2
+};
+
 class Pipelines {
  public:
   Pipelines(Device& device, std::pmr::memory_resource* host);
@@ -143,6 +151,8 @@ class Pipelines {
   VkDescriptorSetLayout skySetLayout() const { return skySet_; }
   VkDescriptorSetLayout transportSetLayout() const { return transportSet_; }
   VkDescriptorSetLayout shadowSetLayout() const { return shadowSet_; }
+  VkDescriptorSetLayout distanceSetLayout() const { return distanceSet_; }
+  VkPipelineLayout distanceLayout() const { return distanceLayout_; }
   VkDescriptorSetLayout ambientSetLayout() const { return ambientSet_; }
   VkPipelineLayout ambientLayout() const { return ambientLayout_; }
   VkPipelineLayout shadowLayout() const { return shadowLayout_; }
@@ -177,6 +187,8 @@ class Pipelines {
   VkDescriptorSetLayout ambientSet_ = VK_NULL_HANDLE;
   VkPipelineLayout ambientLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout shadowLayout_ = VK_NULL_HANDLE;
+  VkDescriptorSetLayout distanceSet_ = VK_NULL_HANDLE;
+  VkPipelineLayout distanceLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout transportLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout volumeLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout skyLayout_ = VK_NULL_HANDLE;

@@ -293,6 +293,8 @@ static void deviceFunctions(WlkContext context) {
   REQUIRE(wlkVulkanCmdUpdate(context, NULL) < 0);
   REQUIRE(wlkVulkanCmdRenderView(context, NULL, view, &targets) < 0);
   EXPECT(WLK_ERROR_WRONG_STATE, wlkVulkanSetAerialPerspective(context, view, &aerial));
+  REQUIRE(targets.volumeDistance == NULL);
+  EXPECT(WLK_ERROR_WRONG_STATE, wlkVulkanSetVolumeDistance(context, view, 1));
 }
 
 int main(void) {
