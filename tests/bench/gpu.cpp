@@ -24,9 +24,14 @@ size_t floatsOf(const GpuImage& image) {
   return texels * (image.format == VK_FORMAT_R32_SFLOAT ? 1 : 4);
 }
 
-support::DeviceOptions options(bool validation) {
+WlkVulkanRequirements requirements() {
   auto needs = welkin::make<WlkVulkanRequirements>();
   welkin::check(wlkVulkanGetRequirements(&needs));
+  return needs;
+}
+
+support::DeviceOptions options(bool validation) {
+  const WlkVulkanRequirements needs = requirements();
   support::DeviceOptions result;
   result.validation = validation;
   result.queueFlags = needs.queueFlags;
@@ -34,6 +39,7 @@ support::DeviceOptions options(bool validation) {
   result.features13.synchronization2 = VK_TRUE;
   result.features13.dynamicRendering = VK_TRUE;
   result.features.shaderStorageImageWriteWithoutFormat = VK_TRUE;
+  result.features.dualSrcBlend = needs.dualSrcBlend;
   return result;
 }
 
@@ -83,6 +89,7 @@ WlkVulkanDeviceInfo Gpu::info() const {
   info.device = handle();
   info.apiVersion = VK_API_VERSION_1_3;
   info.queueFamilyIndex = device_.family();
+  info.dualSrcBlendEnabled = requirements().dualSrcBlend;
   return info;
 }
 

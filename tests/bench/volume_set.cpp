@@ -41,6 +41,17 @@ GpuImage uploadCloud(Gpu& gpu, const Cloud& cloud) {
   return image;
 }
 
+void clearImage(VkCommandBuffer commands, VkImage image) {
+  constexpr VkClearColorValue BLACK{{0, 0, 0, 1}};
+  const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  vkCmdClearColorImage(commands, image, VK_IMAGE_LAYOUT_GENERAL, &BLACK, 1, &all);
+  VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
+  memory.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+  memory.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                       0, 1, &memory, 0, nullptr, 0, nullptr);
+}
+
 SlicerScene slicerScene(const CloudSlabs& slabs, const Vec3& toLight, uint32_t size) {
   const Vec3 corner = cloudCorner();
   const double edge = CLOUD_EDGE;

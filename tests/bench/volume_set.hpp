@@ -17,6 +17,9 @@ VkShaderModule makeModule(VkDevice device, std::span<const uint32_t> code);
 // Density of a cloud on the device, half precision.
 GpuImage uploadCloud(Gpu& gpu, const Cloud& cloud);
 
+// The engine's picture, black and in layout GENERAL, which a competitor then blends over.
+void clearImage(VkCommandBuffer commands, VkImage image);
+
 // As volume/scene.glsl has it.
 struct SlicerScene {
   using Row = std::array<float, 4>;

@@ -158,12 +158,6 @@ VkPipelineColorBlendAttachmentState lightBlend() {
   return blend;
 }
 
-VkPipelineColorBlendAttachmentState noBlend() {
-  VkPipelineColorBlendAttachmentState blend{};
-  blend.colorWriteMask = 0xf;
-  return blend;
-}
-
 }  // namespace
 
 Slicer::Slicer(Gpu& gpu, const GpuImage& density, const GpuImage& target, const Vec3& toLight,
@@ -195,7 +189,8 @@ void Slicer::makePipelines() {
   const std::array<Drawing, PIPES> drawings{{
       {volume_slice_vert_spv, volume_eye_frag_spv, false, true, eye_.format, eyeBlend(towardsEye_)},
       {volume_slice_vert_spv, volume_light_frag_spv, true, true, light_.format, lightBlend()},
-      {volume_screen_vert_spv, volume_resolve_frag_spv, false, false, target_.format, noBlend()},
+      {volume_screen_vert_spv, volume_resolve_frag_spv, false, false, target_.format,
+       eyeBlend(true)},
   }};
   for (size_t i = 0; i < drawings.size(); ++i) {
     pipelines_[i] = makeDrawing(gpu_.handle(), set_.layout(), drawings[i]);
@@ -254,6 +249,7 @@ std::vector<Slicer::Polygon> Slicer::cutPolygons() const {
 
 void Slicer::record(VkCommandBuffer commands) {
   const std::vector<Polygon> polygons = cutPolygons();
+  clearImage(commands, target_.handle);
   constexpr VkClearValue NO_DEPTH{};
   constexpr VkClearValue NOTHING{{{0, 0, 0, 1}}};
   const VkDeviceSize start = 0;

@@ -45,6 +45,10 @@ struct Method {
   std::function<void()> finish;                 // fills in counts
 };
 
+double medianOrNone(const std::vector<double>& times_ms) {
+  return times_ms.empty() ? 0.0 : medianOf(times_ms);
+}
+
 class CaseStudy {
  public:
   CaseStudy(Gpu& gpu, const VolumeCase& one, const VolumeOptions& options)
@@ -131,8 +135,9 @@ class CaseStudy {
     method.finish = [this, index, welkin, times] {
       VolumeRow& row = methods_[index].row;
       const GpuCounts counts = welkin->counts();
-      row.eye_ms = medianOf((*times)[0]);
-      row.light_ms = (*times)[1].empty() ? 0.0 : medianOf((*times)[1]);  // kept
+      // The device's clock may give a frame nothing, and kept light takes no time.
+      row.eye_ms = medianOrNone((*times)[0]);
+      row.light_ms = medianOrNone((*times)[1]);
       row.invocations = counts.invocations;
       row.commands = counts.dispatches;
     };
@@ -219,7 +224,8 @@ std::vector<const VolumeRow*> frontOf(const std::vector<VolumeRow>& rows, const 
 }
 
 GpuImage makeTarget(Gpu& gpu, uint32_t size) {
-  return gpu.makeImage(VK_FORMAT_R32G32B32A32_SFLOAT, {size, size, 1});
+  return gpu.makeImage(VK_FORMAT_R32G32B32A32_SFLOAT, {size, size, 1},
+                       VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
 }
 
 // A point of a scaling study.

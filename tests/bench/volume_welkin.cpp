@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "bench/volume_set.hpp"
 #include "common/camera.hpp"
 
 namespace bench {
@@ -45,10 +46,13 @@ WelkinVolume::WelkinVolume(Gpu& gpu, const GpuImage& target, const Cloud* cloud,
     view.width = target.extent.width;
     view.height = target.extent.height;
     view.targetFormat = WLK_TARGET_RGBA32_FLOAT;
+    view.composite = WLK_COMPOSITE_BLEND;
     WlkView made{};
     welkin::check(wlkCreateView(context_, &view, &made));
     views_.push_back(made);
-    targets_.push_back(described(i == 0 ? target : gpu.makeImage(target.format, target.extent)));
+    targets_.push_back(described(
+        i == 0 ? target
+               : gpu.makeImage(target.format, target.extent, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT)));
     host::CameraDesc eye;
     eye.position = {EYES_APART * i, EYE_ALTITUDE + (options.underSky ? 0.5 * CLOUD_EDGE : 0.0), 0};
     eye.verticalFovDeg = 2 * std::atan(CLOUD_TANGENT) / host::RADIANS_PER_DEGREE;
@@ -101,6 +105,7 @@ void WelkinVolume::record(VkCommandBuffer commands) {
   welkin::check(wlkBeginFrame(context_, &frame));
   welkin::check(wlkVulkanCmdUpdate(context_, commands));
   for (size_t i = 0; i < views_.size(); ++i) {
+    clearImage(commands, targets_[i].image);
     auto images = welkin::make<WlkVulkanViewTargets>();
     images.color = &targets_[i];
     welkin::check(wlkVulkanCmdRenderView(context_, commands, views_[i], &images));
