@@ -19,6 +19,7 @@ struct VolumeUniforms {
   vec4 gridScale;        // unit box to cells of the light grid: scale (w: 1 in a layer), offset
   vec4 gridOffset;
   vec4 gridEnd;          // last cell's middle; 1 / edge of its image
+  vec4 gridNormal;       // of a layer's plane
   vec4 voxels;           // along the axes
   vec4 atlas[4];         // per field: 1 / texels of the atlas of its bricks
   vec4 ambientScale;     // the same of the grid for the light of sky and ground

@@ -8,8 +8,10 @@ const int TRANSPORT_LEVELS = 4;
 const int TRANSPORT_DIRECTIONS = 50;         // at most, on the two finest levels
 const int TRANSPORT_COARSE_DIRECTIONS = 26;  // the first of them: on all others
 // Real spherical harmonics of degree < 4 around the direction in which light travels: Y(l, m) is
-// number l l + l + m, mean square 1.
+// number l l + l + m, mean square 1. In a layer, around whose normal they are, Y(4, 0) takes the
+// place of Y(3, -3): what an even layer's light has none of, for what it has of its shape at once.
 const int TRANSPORT_TERMS = 16;
+const int LAYER_FOURTH = 9;  // the number of Y(4, 0) in a layer
 // Of light scattered once and twice, over the phase functions: 9 harmonics of degree < 3, or 12
 // functions of a layer: for each side of its plane (first those with a positive z) values in
 // LAYER_RINGS rings of directions, between which it is a polynomial in |z|; then x and y of both
@@ -52,6 +54,7 @@ struct TransportUniforms {
   vec4 gridSize;
   vec4 extinctionScale;           // per field: extinction (1/m) at value 1
   vec4 fieldMoments[4];           // per field: albedo * moments of what is not in the peak
+  vec4 fieldFourth;               // per field: the moment of degree 4, of the same
   // Extinction without the peak over extinction; samples per half cell and axis.
   vec4 peak;
   vec4 voxels;                             // along the axes

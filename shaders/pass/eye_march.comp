@@ -167,6 +167,7 @@ void main() {
     float longest = TRANSPORT ? min(volume.middle.w, gridStep(m.boxStep)) : volume.middle.w;
     float dt = max(longest, (last - s) / MAX_STEPS);
     float shape = TRANSPORT ? pairShape(dot(direction, frame.lights[0].direction.xyz)) : 1.0f;
+    vec4 zonal = TRANSPORT ? gridZonal(direction) : vec4(0.0f);
     float first = floor(s / dt) + 1.0f;  // the stretch's far end, in steps
     float eyeDepth = 0.0f;
     float through = 1.0f;
@@ -209,7 +210,7 @@ void main() {
           ends[i] = farEnd;
         }
         if (TRANSPORT) {
-          source += gridSource(m.box + middle * m.boxStep, shape) * (through - passed);
+          source += gridSource(m.box + middle * m.boxStep, shape, zonal) * (through - passed);
         }
         end = far;
         sum += source * air.light * air.transmittance;

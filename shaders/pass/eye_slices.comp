@@ -179,8 +179,10 @@ void main() {
     uint guard = 0u;
     float eyeDepth = 0.0f;
     float shape = 1.0f;
+    vec4 zonal = vec4(0.0f);
     if (TRANSPORT) {
       shape = pairShape(dot(direction, frame.lights[0].direction.xyz));
+      zonal = gridZonal(direction);
       // Rays against the light come to what is nearer in later batches.
       float before = -log(max(state.w, 1.0e-20f));
       if (rate < 0.0f) {
@@ -207,7 +209,7 @@ void main() {
         vec2 light = textureLod(lightBuffer, at, 0.0f).xy;
         source = scatteredLight(extinction, single, light, angle, eyeDepth + 0.5f * beta * dt);
         if (TRANSPORT) {
-          vec3 more = gridSource(boxOrigin + middle * boxStep, shape);
+          vec3 more = gridSource(boxOrigin + middle * boxStep, shape, zonal);
           source += more * (beta * volume.texelOrigin.w);
         }
         source *= air.light;

@@ -10,8 +10,8 @@ layout(set = 0, binding = 2, std430) buffer Kept { float kept[]; };
 layout(push_constant) uniform Push { TransportPush push; };
 
 // Lists of `kept`. Over all levels: extinction without the peak (1/m), light that is scattered
-// there first, moments of the phase function times albedo, terms of the source; of the finest
-// level: terms of the light scattered once.
+// there first, moments of the phase function times albedo (degrees 0 to 4), terms of the source; of
+// the finest level: terms of the light scattered once.
 int total() {
   return volume.place[TRANSPORT_LEVELS - 1].x + volume.size[TRANSPORT_LEVELS - 1].w;
 }
@@ -25,16 +25,16 @@ int momentAt(int level, int degree, int cell) {
   return total() * (2 + degree) + volume.place[level].x + cell;
 }
 int sourceAt(int level, int term, int cell) {
-  return total() * (6 + term) + volume.place[level].x + cell;
+  return total() * (7 + term) + volume.place[level].x + cell;
 }
 // Terms of the light scattered once, then of that scattered twice, over the phase functions.
 int firstAt(int term, int cell) {
-  return total() * (6 + TRANSPORT_TERMS) + volume.size[0].w * term + cell;
+  return total() * (7 + TRANSPORT_TERMS) + volume.size[0].w * term + cell;
 }
 
 // What the level below the finest found by itself: terms as above, then those of its source.
 int coarseAt(int term, int cell) {
-  return total() * (6 + TRANSPORT_TERMS) + volume.size[0].w * (2 * FIRST_TERMS) +
+  return total() * (7 + TRANSPORT_TERMS) + volume.size[0].w * (2 * FIRST_TERMS) +
          volume.size[1].w * term + cell;
 }
 

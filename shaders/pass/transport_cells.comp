@@ -17,7 +17,8 @@ float depthAt(int index) {
   return work[radianceAt(0, 0, index)];
 }
 
-void storeMoments(int level, int cell, vec4 moments) {
+void storeMoments(int level, int cell, vec4 moments, float fourth) {
+  kept[momentAt(level, 4, cell)] = fourth;
   for (int degree = 0; degree < 4; ++degree) {
     kept[momentAt(level, degree, cell)] = moments[degree];
   }
@@ -63,13 +64,15 @@ void finest(int cell) {
   // An empty cell next to a cloud takes part in interpolation: it has the light of its place.
   float first = sum > 1.0e-12f ? 0.125f * lit / sum : 0.125f * light * scattered.x;
   vec4 moments = volume.fieldMoments[0];
+  float fourth = volume.fieldFourth.x;
   if (sum > 1.0e-12f) {
+    fourth = dot(volume.fieldFourth, beta) / sum;
     moments = (volume.fieldMoments[0] * beta.x + volume.fieldMoments[1] * beta.y +
                volume.fieldMoments[2] * beta.z + volume.fieldMoments[3] * beta.w) / sum;
   }
   kept[extinctionAt(0, cell)] = sum * volume.peak.x;
   kept[lightAt(0, cell)] = first;
-  storeMoments(0, cell, moments);
+  storeMoments(0, cell, moments, fourth);
 }
 
 void coarser(int level, int cell) {
@@ -81,6 +84,7 @@ void coarser(int level, int cell) {
   float light = 0.0f;
   vec4 moments = vec4(0.0f);
   vec4 plain = vec4(0.0f);
+  vec2 fourth = vec2(0.0f);  // weighted, plain
   for (int part = 0; part < 8; ++part) {
     ivec3 fine = corner + ivec3(part & 1, (part >> 1) & 1, part >> 2);
     int index = fine.x * stride.x + fine.y * stride.y + fine.z * stride.z;
@@ -92,10 +96,12 @@ void coarser(int level, int cell) {
     light += first;
     moments += here * own;
     plain += own;
+    fourth += vec2(here, 1.0f) * kept[momentAt(level - 1, 4, index)];
   }
   kept[extinctionAt(level, cell)] = 0.125f * beta;
   kept[lightAt(level, cell)] = beta > 1.0e-12f ? lit / beta : 0.125f * light;
-  storeMoments(level, cell, beta > 1.0e-12f ? moments / beta : 0.125f * plain);
+  storeMoments(level, cell, beta > 1.0e-12f ? moments / beta : 0.125f * plain,
+               beta > 1.0e-12f ? fourth.x / beta : 0.125f * fourth.y);
 }
 
 void main() {

@@ -11,8 +11,8 @@ const int TERMS = 2 * FIRST_TERMS + TRANSPORT_TERMS;
 // Errors of first order would ask for a step of 1, of second order for 1/3.
 // Step beyond the finest level, in steps from the coarser to it; at most this part of the light.
 const float STEP = 0.5f;
-// A layer's cells are optically thick before they are many: of optical depth 64, 2 per cell, half
-// of the difference lets 3 to 13 % too much through (HG 0.85), a fifth 3 to 12 % too little.
+// A layer's sources are linear along its rays, so its errors are of second order. That holds for
+// levels that are both solved to the end (LAYER_ROUNDS), else the difference is that of rounds.
 const float LAYER_STEP = 1.0f / 3.0f;
 const float MOST = 0.9f;
 

@@ -27,6 +27,7 @@ void main() {
     sum[term] = 0.0f;
   }
   bool layer = first && isLayer();
+  int fourthTerm = isLayer() ? LAYER_FOURTH : -1;
   int base = layer ? (second ? SECOND_ROWS : FIRST_ROWS) : 0;
   int stride = layer ? 3 : 4;  // a layer's terms of the last row are not used
   bool shaped = second && !layer;
@@ -52,6 +53,7 @@ void main() {
 
   vec4 moments = vec4(kept[momentAt(level, 0, cell)], kept[momentAt(level, 1, cell)],
                       kept[momentAt(level, 2, cell)], kept[momentAt(level, 3, cell)]);
+  float fourth = kept[momentAt(level, 4, cell)];
   if (first) {
     for (int term = 0; term < FIRST_TERMS; ++term) {
       kept[firstAt(second ? FIRST_TERMS + term : term, cell)] = sum[term];
@@ -69,14 +71,14 @@ void main() {
           }
         }
         int term = l * l + l + m;
-        work[driveAt(level, term, cell)] = moments[l] * drive;
+        work[driveAt(level, term, cell)] = (term == fourthTerm ? fourth : moments[l]) * drive;
         kept[sourceAt(level, term, cell)] = 0.0f;
       }
     }
     return;
   }
   for (int term = 0; term < TRANSPORT_TERMS; ++term) {
-    float now = moments[degreeOf(term)] * sum[term];
+    float now = (term == fourthTerm ? fourth : moments[degreeOf(term)]) * sum[term];
     int at = sourceAt(level, term, cell);
     work[changeAt(level, term, cell)] = now - kept[at];
     kept[at] = now;

@@ -41,7 +41,8 @@ float harmonic(int term, vec3 v) {
   float all[TRANSPORT_TERMS] = float[](
       1.0f, 1.7320508f * y, 1.7320508f * z, 1.7320508f * x, 3.8729833f * x * y,
       3.8729833f * y * z, 1.1180340f * (3.0f * z * z - 1.0f), 3.8729833f * x * z,
-      1.9364917f * squares, 2.0916501f * y * (3.0f * x * x - y * y), 10.2469508f * x * y * z,
+      1.9364917f * squares, 0.375f * (z * z * (35.0f * z * z - 30.0f) + 3.0f),
+      10.2469508f * x * y * z,
       1.6201852f * y * (5.0f * z * z - 1.0f), 1.3228757f * z * (5.0f * z * z - 3.0f),
       1.6201852f * x * (5.0f * z * z - 1.0f), 5.1234754f * z * squares,
       2.0916501f * x * (x * x - 3.0f * y * y));

@@ -2,7 +2,8 @@
 // What each cell scatters towards the eye of light scattered before, 1/sr per unit irradiance, and
 // its extinction (1/m):
 // light scattered once and twice by products of phase functions, over pairShape, and the rest, by
-// its harmonics, in the second half of the image.
+// its harmonics, in the second half of the image; of a layer as the sum of all but the zonal ones,
+// then those of degree 1, 2 and 4.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "transport.glsl"
@@ -96,24 +97,31 @@ void main() {
   }
   first *= kept[momentAt(0, 0, cell)];
 
+  // Of a layer each ray adds for its own direction what depends on the angle to the plane alone:
+  // cells are wide, and an eye near them sees their middles from elsewhere (gridSource).
+  float own = layer ? 0.0f : 1.0f;
   float rest = kept[sourceAt(0, 0, cell)] + 1.7320508f * (y * kept[sourceAt(0, 1, cell)] +
-                                                            z * kept[sourceAt(0, 2, cell)] +
+                                                            own * z * kept[sourceAt(0, 2, cell)] +
                                                             x * kept[sourceAt(0, 3, cell)]);
   rest += 3.8729833f * (x * y * kept[sourceAt(0, 4, cell)] + y * z * kept[sourceAt(0, 5, cell)] +
                         x * z * kept[sourceAt(0, 7, cell)] +
                         0.5f * (x * x - y * y) * kept[sourceAt(0, 8, cell)]);
-  rest += 1.1180340f * (3.0f * z * z - 1.0f) * kept[sourceAt(0, 6, cell)];
-  rest += 2.0916501f * (y * (3.0f * x * x - y * y) * kept[sourceAt(0, 9, cell)] +
-                        x * (x * x - 3.0f * y * y) * kept[sourceAt(0, 15, cell)]);
+  rest += own * 1.1180340f * (3.0f * z * z - 1.0f) * kept[sourceAt(0, 6, cell)];
+  rest += 2.0916501f * x * (x * x - 3.0f * y * y) * kept[sourceAt(0, 15, cell)];
+  rest += own * 2.0916501f * y * (3.0f * x * x - y * y) * kept[sourceAt(0, 9, cell)];
   rest += 10.2469508f * (x * y * z * kept[sourceAt(0, 10, cell)] +
                          0.5f * z * (x * x - y * y) * kept[sourceAt(0, 14, cell)]);
   rest += 1.6201852f * (5.0f * z * z - 1.0f) *
           (y * kept[sourceAt(0, 11, cell)] + x * kept[sourceAt(0, 13, cell)]);
   rest += 1.3228757f * z * (5.0f * z * z - 3.0f) * kept[sourceAt(0, 12, cell)];
 
+  vec4 all = vec4(rest, kept[sourceAt(0, 2, cell)], kept[sourceAt(0, 6, cell)],
+                  kept[sourceAt(0, LAYER_FOURTH, cell)]);
   // Where one of the two is negative, by rounding of what is sharp, the other makes up for it.
   vec3 few = max(first + min(rest, 0.0f), vec3(0.0f)) * 0.0795774715f;
-  vec3 many = max(vec3(rest) + min(first, vec3(0.0f)), vec3(0.0f)) * 0.0795774715f;
+  all = layer ? all : vec4(max(vec3(rest) + min(first, vec3(0.0f)), vec3(0.0f)), 0.0f);
+  all *= 0.0795774715f;
+  few = layer ? first * 0.0795774715f : few;
   few /= pairShape(towards);
   // Filters read the cell after the last one, too, with weight 0 or nearly so: what stands there
   // may be of another volume or no number.
@@ -124,7 +132,7 @@ void main() {
       for (int i = 0; i <= more.x; ++i) {
         ivec3 at = place + ivec3(i, j, k);
         imageStore(viewSource, at, vec4(few, kept[extinctionAt(0, cell)]));
-        imageStore(viewSource, at + ivec3(0, 0, room.z), vec4(many, 0.0f));
+        imageStore(viewSource, at + ivec3(0, 0, room.z), all);
       }
     }
   }

@@ -18,16 +18,25 @@ vec3 fieldSource(uint field, float depth, float angle) {
 
 // Where the light's grid holds a position in the unit box: in its image's first half source over
 // pairShape (1/sr per unit irradiance) and extinction without the peak (1/m), in the second the
-// source that goes with no shape.
+// source that goes with no shape; of a layer in parts, see gridZonal.
 vec3 gridPlace(vec3 box) {
   vec3 cell = box * volume.gridScale.xyz + volume.gridOffset.xyz;
   return clamp(cell, vec3(0.5f), volume.gridEnd.xyz) * (volume.gridEnd.w * vec3(1.0f, 1.0f, 0.5f));
 }
 
-vec3 gridSource(vec3 box, float shape) {
+vec3 gridSource(vec3 box, float shape, vec4 zonal) {
   vec3 place = gridPlace(box);
-  return shape * textureLod(viewSource, place, 0.0f).xyz +
-         textureLod(viewSource, place + vec3(0.0f, 0.0f, 0.5f), 0.0f).xyz;
+  vec3 few = shape * textureLod(viewSource, place, 0.0f).xyz;
+  vec4 many = textureLod(viewSource, place + vec3(0.0f, 0.0f, 0.5f), 0.0f);
+  return volume.gridScale.w > 0.0f ? max(few + dot(many, zonal), vec3(0.0f)) : few + many.xyz;
+}
+
+// Harmonics around a layer's normal of light that travels against a ray, as gridSource takes them.
+vec4 gridZonal(vec3 direction) {
+  float z = clamp(-dot(volume.gridNormal.xyz, direction), -1.0f, 1.0f);
+  float square = z * z;
+  return vec4(1.0f, 1.7320508f * z, 1.1180340f * (3.0f * square - 1.0f),
+              0.375f * (square * (35.0f * square - 30.0f) + 3.0f));
 }
 
 // Longest step of a ray, in a layer half a cell: its slices lie far apart where light comes from

@@ -114,6 +114,9 @@ TransportFan layerFan(const TransportMedia& media, const glm::dmat3& box,
     fan.direction[d] = layer.direction[d];
     fan.fine[d] = layer.weight[d];
     fillHarmonics(layer.local[d], &out.rows[d * 4]);
+    const double square = layer.local[d].z * layer.local[d].z;
+    out.rows[d * 4 + interface_::LAYER_FOURTH / 4][interface_::LAYER_FOURTH % 4] =
+        static_cast<float>(0.375 * (square * (35 * square - 30) + 3));
     const double cosine = std::clamp(glm::dot(layer.local[d], layer.travel), -1.0, 1.0);
     twice[d] = std::max(transportPair(media, 0, std::acos(cosine)), 1e-6);
   }
@@ -228,7 +231,7 @@ TransportSizes transportSizes(const std::array<uint32_t, 3>& cells) {
       TransportLayer::COUNT + TERMS;
   sizes.workBytes = sizeof(float) * (TWO * TERMS * total + VkDeviceSize{TWO * DIRECTIONS} * finest);
   sizes.keptBytes =
-      sizeof(float) * (VkDeviceSize{6 + TERMS} * total + TWO * FIRST * finest +
+      sizeof(float) * (VkDeviceSize{7 + TERMS} * total + TWO * FIRST * finest +
                        (TWO * FIRST + TERMS) * sizes.cells[1] + TWO * FIRST * RESPONSES);
   return sizes;
 }
@@ -274,6 +277,8 @@ TransportMedia transportMedia(const VolumeState& volume) {
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
     const double f = phases[i].peak;
     const double albedo = meanAlbedo(volume.fields[i]);
+    media.fieldFourth[static_cast<int>(i)] = static_cast<float>(
+        (albedo * (f + (1 - f) * phases[i].fourth) - media.peak) / (1 - media.peak));
     for (int l = 0; l < TRANSPORT_MOMENTS; ++l) {
       const double moment = f + (1 - f) * phases[i].moments[static_cast<size_t>(l)];
       media.fieldMoments[i][l] =
@@ -354,6 +359,7 @@ void fillTransport(const VolumeState& volume, const glm::dvec3& toLight,
     out.extinctionScale[static_cast<int>(i)] = extinctionAtOne(volume.fields[i]);
     out.fieldMoments[i] = media.fieldMoments[i];
   }
+  out.fieldFourth = media.fieldFourth;
   out.gridOrigin = glm::vec4(glm::vec3(shape.origin), 0);
   out.gridSize = glm::vec4(glm::vec3(shape.size), 0);
   out.peak = {static_cast<float>(1 - media.peak), transportTaps(volume, shape), 0, 0};

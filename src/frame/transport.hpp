@@ -39,6 +39,7 @@ constexpr size_t FINE_NODES = 256;       // of kernels, at sin(angle / 2) = i / 
 struct TransportMedia {
   double peak = 0;  // albedo * energy in the peak, mean of the fields
   std::array<glm::vec4, WLK_MAX_FIELDS> fieldMoments{};
+  glm::vec4 fieldFourth{0};  // of degree 4
   std::array<std::array<glm::vec4, TRANSPORT_DEGREES>, WLK_MAX_FIELDS> colorMoments{};  // RGB
   // Albedo times phase function without the peak, its degrees under 4 taken off, 1/sr, RGB.
   std::array<glm::dvec3, FINE_NODES> fineKernel{};

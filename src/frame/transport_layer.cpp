@@ -55,10 +55,15 @@ Rows termsOf(const TransportLayer& layer, const std::array<double, COUNT>& shape
 
 }  // namespace
 
+glm::dvec3 layerNormal(const glm::dmat3& box, int thinAxis) {
+  const glm::dvec3 along = glm::normalize(box[(thinAxis + 1) % 3]);
+  return glm::normalize(glm::cross(along, box[(thinAxis + 2) % 3]));
+}
+
 TransportLayer transportLayer(const glm::dmat3& box, int thinAxis, const glm::dvec3& travel) {
   TransportLayer layer;
   const glm::dvec3 along = glm::normalize(box[(thinAxis + 1) % 3]);
-  const glm::dvec3 normal = glm::normalize(glm::cross(along, box[(thinAxis + 2) % 3]));
+  const glm::dvec3 normal = layerNormal(box, thinAxis);
   const glm::dvec3 across = glm::cross(normal, along);
   // Which azimuth a light on the normal has does not matter.
   const double sine = std::hypot(glm::dot(travel, along), glm::dot(travel, across));

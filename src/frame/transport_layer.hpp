@@ -20,6 +20,8 @@ struct TransportLayer {
   std::array<glm::dvec3, COUNT> local;      // in the frame
   std::array<double, COUNT> weight;         // sum 1
 };
+// Of the layer's plane, in the world.
+glm::dvec3 layerNormal(const glm::dmat3& box, int thinAxis);
 TransportLayer transportLayer(const glm::dmat3& box, int thinAxis, const glm::dvec3& travel);
 
 // Rows of TransportUniforms from FIRST_ROWS and SECOND_ROWS. `twice`: the phase function of two

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "frame/transport.hpp"
+#include "frame/transport_layer.hpp"
 #include "model/model.hpp"
 
 namespace welkin {
@@ -231,8 +232,11 @@ void fillVolume(const VolumeState& volume, const PlannedVolume& planned, const g
   out.middle = glm::vec4(glm::vec3(box * glm::dvec4(0.5, 0.5, 0.5, 1.0)),
                          static_cast<float>(layout.slabThickness * MARCH_STEP));
   if (quality.transport) {
-    const GridPlace grid =
-        placeGrid(transportShape(volume, quality.transportCells), quality.cellRoom);
+    const TransportShape shape = transportShape(volume, quality.transportCells);
+    const GridPlace grid = placeGrid(shape, quality.cellRoom);
+    if (shape.layer) {
+      out.gridNormal = glm::vec4(glm::vec3(layerNormal(glm::dmat3(box), shape.thinAxis)), 0.0f);
+    }
     out.gridScale = grid.scale;
     out.gridOffset = grid.offset;
     out.gridEnd = grid.end;

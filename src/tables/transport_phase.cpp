@@ -300,11 +300,12 @@ TransportPhase transportPhase(const PhaseCurve& curve) {
     for (double& value : rest) {
       value = share > LEAST_REST ? value / share : INV_4PI;
     }
-    Moments chi(TRANSPORT_MOMENTS);
+    Moments chi(TRANSPORT_MOMENTS + 1);
     legendreMoments(curve.y, rest, chi);
-    for (size_t l = 0; l < chi.size(); ++l) {
+    for (size_t l = 0; l < TRANSPORT_MOMENTS; ++l) {
       result.moments[l] += chi[l] / SOURCE_CHANNELS;
     }
+    result.fourth += chi[TRANSPORT_MOMENTS] / SOURCE_CHANNELS;
   }
   return result;
 }

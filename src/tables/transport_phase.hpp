@@ -25,6 +25,7 @@ constexpr size_t PAIR_FUNCTIONS = 6;  // (0,0) (1,0) (1,1) (2,0) (2,1) (2,2)
 struct TransportPhase {
   double peak = 0;                                        // its integral f, mean over the channels
   std::array<double, TRANSPORT_MOMENTS> moments{};        // chi'_l of the mean over channels of P'
+  double fourth = 0;                                      // chi'_4
   std::vector<double> y;                                  // nodes of the curve
   std::array<std::vector<double>, SOURCE_CHANNELS> rest;  // P' of a channel in 1/sr at y
 };

@@ -101,6 +101,9 @@ struct Truth {
 };
 
 inline Real legendre(int l, Real mu) {
+  if (l == 4) {
+    return ((35 * mu * mu - 30) * mu * mu + 3) / 8;
+  }
   return l == 0 ? 1 : l == 1 ? mu : l == 2 ? (3 * mu * mu - 1) / 2 : (5 * mu * mu - 3) * mu / 2;
 }
 
