@@ -100,16 +100,20 @@ End endAt(March m, float s, float eyeDepth) {
   End end;
   vec2 light = textureLod(lightBuffer, m.light + s * m.lightStep, 0.0f).xy;
   float keep = TRANSPORT ? volume.texelOrigin.w : 1.0f;
+  vec3 box = m.box + s * m.boxStep;
   for (int i = 0; i < int(FIELD_COUNT); ++i) {
     vec3 ln;
     if (TRANSPORT) {
       float turned = (light.x + eyeDepth) * volume.meanAlbedo[i];
-      ln = logFieldSource(uint(i), depthCoordinate(turned), m.angle) - light.x * keep;
+      ln = logFieldSource(uint(i), depthCoordinate(turned), m.angle, box) - light.x * keep;
     } else if (FORWARD_SCATTERING) {
       // phi was accumulated with the mean albedo; each colour scales it by its own.
       vec3 back = light.y * volume.albedo[i].xyz / max(volume.meanAlbedo[i], 1.0e-6f);
       float turned = light.x * volume.meanAlbedo[i];
-      ln = logFieldSource(uint(i), depthCoordinate(turned), m.angle) + min(back - light.x, 0.0f);
+      ln = logFieldSource(uint(i), depthCoordinate(turned), m.angle, box) +
+           min(back - light.x, 0.0f);
+    } else if (variesInside(uint(i))) {
+      ln = logFieldSource(uint(i), 0.0f, m.angle, box) - light.x;
     } else {
       ln = m.single[i] - light.x;
     }
@@ -157,7 +161,7 @@ void main() {
     }
     if (LIGHT_ENABLED && !FORWARD_SCATTERING && !TRANSPORT) {
       for (int i = 0; i < int(FIELD_COUNT); ++i) {
-        m.single[i] = logFieldSource(uint(i), 0.0f, m.angle);
+        m.single[i] = logLayerSource(float(i), 0.0f, m.angle);
       }
     }
     AirNodes nodes = airNodes(direction, span.begin, span.end);

@@ -64,19 +64,23 @@ const uint MAX_SUBSTEPS = 256u;   // per slab, for rays that run along it
 // Radiance scattered towards the eye per unit irradiance: sum of the fields' extinction * albedo *
 // light * phase. Of the four `single`, values of single scattering.
 // `eyeDepth`: optical depth to the eye, as far as it is known.
-vec3 scatteredLight(vec4 extinction, vec3 single[4], vec2 light, float angle, float eyeDepth) {
+// `box`: where, in the unit box.
+vec3 scatteredLight(vec4 extinction, vec3 single[4], vec2 light, float angle, float eyeDepth,
+                    vec3 box) {
   float tau = light.x;
   vec3 sum = vec3(0.0f);
   if (TRANSPORT) {
     for (uint i = 0u; i < FIELD_COUNT; ++i) {
       float turned = (tau + eyeDepth) * volume.meanAlbedo[i];
-      sum += volume.albedo[i].xyz * fieldSource(i, depthCoordinate(turned), angle) * extinction[i];
+      vec3 source = fieldSource(i, depthCoordinate(turned), angle, box);
+      sum += volume.albedo[i].xyz * source * extinction[i];
     }
     return sum * exp(-min(tau * volume.texelOrigin.w, 80.0f));
   }
   if (!FORWARD_SCATTERING) {
     for (int i = 0; i < int(FIELD_COUNT); ++i) {
-      sum += volume.albedo[i].xyz * single[i] * extinction[i];
+      vec3 source = variesInside(uint(i)) ? fieldSource(uint(i), 0.0f, angle, box) : single[i];
+      sum += volume.albedo[i].xyz * source * extinction[i];
     }
     return sum * exp(-tau);
   }
@@ -85,7 +89,7 @@ vec3 scatteredLight(vec4 extinction, vec3 single[4], vec2 light, float angle, fl
     float mean = max(volume.meanAlbedo[i], 1.0e-6f);
     vec3 albedo = volume.albedo[i].xyz;
     vec3 intensity = exp(min(light.y * albedo / mean - tau, vec3(0.0f)));
-    vec3 source = fieldSource(i, depthCoordinate(tau * volume.meanAlbedo[i]), angle);
+    vec3 source = fieldSource(i, depthCoordinate(tau * volume.meanAlbedo[i]), angle, box);
     sum += intensity * albedo * source * extinction[i];
   }
   return sum;
@@ -155,7 +159,7 @@ void main() {
     }
     if (LIGHT_ENABLED && !FORWARD_SCATTERING && !TRANSPORT) {
       for (int i = 0; i < int(FIELD_COUNT); ++i) {
-        single[i] = fieldSource(uint(i), 0.0f, angle);
+        single[i] = exp(logLayerSource(float(i), 0.0f, angle));
       }
     }
     AirNodes nodes = airNodes(direction, span.begin, span.end);
@@ -207,7 +211,8 @@ void main() {
         vec3 at = lightOrigin + middle * lightStep;
         at.z = (at.z - float(slice.firstSlab) + 0.5f) / layers;
         vec2 light = textureLod(lightBuffer, at, 0.0f).xy;
-        source = scatteredLight(extinction, single, light, angle, eyeDepth + 0.5f * beta * dt);
+        source = scatteredLight(extinction, single, light, angle, eyeDepth + 0.5f * beta * dt,
+                                boxOrigin + middle * boxStep);
         if (TRANSPORT) {
           vec3 more = gridSource(boxOrigin + middle * boxStep, shape, zonal);
           source += more * (beta * volume.texelOrigin.w);

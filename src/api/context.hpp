@@ -31,7 +31,7 @@ struct Retired {
   uint64_t frame = 0;
   ViewResources view;
   ShadowMapResources shadowMap;
-  std::array<vk::Image, WLK_MAX_FIELDS + SCATTERING_FORMS + 2> images;
+  std::array<vk::Image, WLK_MAX_FIELDS + SCATTERING_FORMS + 3> images;
   std::array<vk::Buffer, SCATTERING_FORMS + 1> buffers;
 };
 

@@ -72,10 +72,10 @@ bool partial(const VkBufferImageCopy& region, const vk::Image& image) {
   return a.width != b.width || a.height != b.height || a.depth != b.depth;
 }
 
-void uploadTable(WlkContext_T& c, VkCommandBuffer commands, uint32_t fieldCount,
+void uploadTable(WlkContext_T& c, VkCommandBuffer commands, uint32_t layers,
                  ScatteringTable& table) {
   VkBufferImageCopy region{};
-  region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, fieldCount};
+  region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, layers};
   region.imageExtent = table.image.info().extent;
   copyInto(c.device->vk(), commands, table.staging, table.image, region, false);
   c.bytesUploaded += table.staging.size();
@@ -215,7 +215,7 @@ void recordUpdate(WlkContext_T& c, VkCommandBuffer commands) {
     }
     for (ScatteringTable& table : volume->tables) {
       if (table.staging) {
-        uploadTable(c, commands, volume->fieldCount, table);
+        uploadTable(c, commands, volume->tableLayers(), table);
       }
     }
   }
@@ -228,9 +228,10 @@ void recordUpdate(WlkContext_T& c, VkCommandBuffer commands) {
     if (upload.field == LEAPS) {
       fillLeaps(volume, upload.staging);
     }
-    vk::Image& image = upload.field == PAGES   ? volume.pages
-                       : upload.field == LEAPS ? volume.leaps
-                                               : volume.fields[upload.field].image;
+    vk::Image& image = upload.field == PAGES       ? volume.pages
+                       : upload.field == LEAPS     ? volume.leaps
+                       : upload.field == DIAMETERS ? volume.diameters
+                                                   : volume.fields[upload.field].image;
     copyInto(vk, commands, upload.staging, image, upload.region, partial(upload.region, image));
     c.bytesUploaded += upload.staging.size();
     ++c.updateCopies;

@@ -112,6 +112,7 @@ WlkResult wlkDestroyVolume(WlkContext context, WlkVolume volume) {
     }
     entry.images[WLK_MAX_FIELDS + SCATTERING_FORMS] = std::move(state.pages);
     entry.images[WLK_MAX_FIELDS + SCATTERING_FORMS + 1] = std::move(state.leaps);
+    entry.images[WLK_MAX_FIELDS + SCATTERING_FORMS + 2] = std::move(state.diameters);
     entry.buffers[SCATTERING_FORMS] = std::move(state.pairTable);
     std::erase_if(c.pending, [&](const PendingUpload& p) { return p.volumeId == volume.id; });
     c.volumes.destroy(volume.id);

@@ -235,7 +235,7 @@ WlkResult wlkGetVolumeState(WlkContext context, WlkVolume volume, WlkVolumeState
     }
     state->storedBricks = 0;
     state->leaps = (v.fieldKind() & VolumeState::LEAPING) != 0 ? 1 : 0;
-    state->deviceMemory = imageBytes(v.pages) + imageBytes(v.leaps);
+    state->deviceMemory = imageBytes(v.pages) + imageBytes(v.leaps) + imageBytes(v.diameters);
     state->hostMemory = v.pageTexels.capacity() * sizeof(float) + v.distances.capacity();
     for (uint32_t i = 0; i < v.fieldCount; ++i) {
       state->storedBricks += v.fields[i].slots;

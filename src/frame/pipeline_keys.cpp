@@ -24,6 +24,7 @@ vk::PipelineKey eyeKey(const EyeVariant& v, uint32_t fields, const SliceQuality&
   key.constants[12] = v.stored && leaps && !quality.noSkip ? 1 : 0;
   key.constants[13] = v.froxels;
   key.constants[14] = v.distance;
+  key.constants[15] = fields / VolumeState::VARYING;
   return key;
 }
 

@@ -70,7 +70,7 @@ VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t vol
                          VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
                                               slots * ((3 + more) * volumes + 5 + 2 * more)},
                          VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                              slots * ((23 + 13 * more) * volumes + 8 + 7 * more)}};
+                                              slots * ((24 + 14 * more) * volumes + 8 + 7 * more)}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.maxSets = sets;
   info.poolSizeCount = static_cast<uint32_t>(sizes.size());
@@ -359,13 +359,13 @@ void prepareVolume(vk::Device& device, VolumeState& volume, uint32_t form) {
   vk::ImageInfo info;
   info.format = VK_FORMAT_R32G32B32A32_SFLOAT;
   info.extent = {static_cast<uint32_t>(DEPTH_NODES), CURVE_POINTS, 1};
-  info.layers = volume.fieldCount;
+  info.layers = volume.tableLayers();
   info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   info.arrayView = true;
   ScatteringTable made;
   made.image = vk::Image(device, info);
   made.staging =
-      vk::Buffer(device, LAYER_BYTES * volume.fieldCount, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true);
+      vk::Buffer(device, LAYER_BYTES * info.layers, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true);
   auto* layers = static_cast<char*>(made.staging.data());
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
     uint32_t twin = 0;
@@ -379,6 +379,12 @@ void prepareVolume(vk::Device& device, VolumeState& volume, uint32_t form) {
       fillLayer(*volume.fields[i].medium.particle, form, layers + i * LAYER_BYTES,
                 made.forwardFraction[i]);
     }
+  }
+  // Light marches by the medium's own forward part.
+  std::array<float, DEPTH_NODES> unused{};
+  for (uint32_t i = volume.fieldCount; i < info.layers; ++i) {
+    fillLayer(volume.diameterNodes->particles[i - volume.fieldCount], form,
+              layers + i * LAYER_BYTES, unused);
   }
   table = std::move(made);
 }

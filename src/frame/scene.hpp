@@ -16,6 +16,7 @@
 #include "frame/bricks.hpp"
 #include "frame/governor.hpp"
 #include "frame/plan.hpp"
+#include "particles/diameter_nodes.hpp"
 #include "particles/medium.hpp"
 #include "vk/device.hpp"
 #include "vk/pipelines.hpp"
@@ -26,10 +27,11 @@ constexpr int DEPTH_NODES = 32;  // of a scattering table, see tables/multiscatt
 // Poisson counts of scatterings, the paper's whole numbers, and the first order with its peak
 // blurred.
 constexpr uint32_t SCATTERING_FORMS = 3;
-constexpr uint32_t FIELD_KINDS = 32 << WLK_MAX_FIELDS;  // values of VolumeState::fieldKind
+constexpr uint32_t FIELD_KINDS = 512 * (1 + WLK_MAX_FIELDS);  // values of VolumeState::fieldKind
 
 struct MediumState {
   Medium medium;
+  std::shared_ptr<const DiameterNodes> nodes;  // made where they are asked for first
   uint32_t users = 0;
 };
 
@@ -58,7 +60,8 @@ struct FieldState {
   bool bricks() const { return atlas[0] > 0 && !external; }
 };
 
-// Source distributions of a volume's fields, one layer each, and their forward parts.
+// Source distributions of a volume's fields, one layer each, then of its diameters' nodes, and the
+// fields' forward parts.
 struct ScatteringTable {
   vk::Image image;
   vk::Buffer staging;  // until the table is uploaded
@@ -78,6 +81,7 @@ struct TransportMedia;
 // PendingUpload::field of what is no field.
 constexpr uint32_t PAGES = WLK_MAX_FIELDS;
 constexpr uint32_t LEAPS = WLK_MAX_FIELDS + 1;
+constexpr uint32_t DIAMETERS = WLK_MAX_FIELDS + 2;
 
 // Texels along a store's edges, and what it holds: 0 optical depth, else also what forward
 // scattering gives back, of the scattering tables form - 1.
@@ -142,14 +146,24 @@ struct VolumeState {
   uint64_t uploads = 0;             // to any field
   uint64_t leapsAt = ~uint64_t{0};  // the same when wlkPrepare looked last
 
+  // Diameters of one field's droplets per voxel, in nodes; empty without.
+  vk::Image diameters;
+  uint32_t diameterField = 0;
+  std::shared_ptr<const DiameterNodes> diameterNodes;
+
+  uint32_t tableLayers() const {
+    return fieldCount + (diameters ? static_cast<uint32_t>(DIAMETER_NODES) : 0u);
+  }
   static constexpr uint32_t LEAPING = 1u << 7;
   uint32_t pageChannels() const { return fieldCount == 1 ? 1 : 4; }
   static constexpr uint32_t GREY = 1u << 8;
   bool grey = false;  // all colours scatter alike
+  static constexpr uint32_t VARYING = 1u << 9;
   // How passes read the fields: their number, from bit 3 on which are kept as bricks, in bit 7
-  // whether rays leap and in bit 8 `grey`.
+  // whether rays leap, in bit 8 `grey` and from bit 9 on 1 + `diameterField`, 0 without diameters.
   uint32_t fieldKind() const {
     uint32_t kind = fieldCount | (grey ? GREY : 0u);
+    kind |= diameters ? VARYING * (1 + diameterField) : 0u;
     bool known = true;
     for (uint32_t i = 0; i < fieldCount; ++i) {
       kind |= (fields[i].bricks() ? 1u : 0u) << (3 + i);

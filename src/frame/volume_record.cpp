@@ -291,6 +291,9 @@ class VolumeRecorder {
     const vk::Image& leaps = volume_.state->leaps;
     c_.bindings.image(set, vk::BIND_LEAPS, leaps ? leaps.view() : c_.in.dummy3d,
                       c_.pipelines.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    const vk::Image& diameters = volume_.state->diameters;
+    c_.bindings.image(set, vk::BIND_DIAMETERS, diameters ? diameters.view() : c_.in.dummy3d,
+                      c_.pipelines.linear(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   }
 
   FrameCommands& c_;

@@ -47,6 +47,9 @@ Medium makeMedium(ParticleType type, const ParticleParams& params,
   Medium medium;
   medium.particle = std::make_shared<const Particle>(particleKind(type).make(params));
   medium.albedo = albedo;
+  medium.type = type;
+  medium.params = params;
+  medium.params.userAngle = medium.params.userPhase = {};
   return medium;
 }
 

@@ -12,6 +12,8 @@ namespace welkin {
 struct Medium {
   std::shared_ptr<const Particle> particle;
   std::array<double, RGB> albedo{1, 1, 1};  // single-scattering, [0, 1]
+  ParticleType type = ParticleType::Cloud;
+  ParticleParams params;  // without a user's table
 
   // Light that goes straight on is neither scattered nor lost: volumes take it off, as
   // P = f delta + (1 - f) P', extinction' = (1 - albedo f) extinction,

@@ -41,7 +41,7 @@ enum class Pass : uint32_t {
   VolumeDistance
 };
 
-constexpr uint32_t MAX_CONSTANTS = 15;
+constexpr uint32_t MAX_CONSTANTS = 16;
 
 // Values of constant_id 0, 1, 2, ... of the pass; booleans are 0 or 1.
 struct PipelineKey {
@@ -70,7 +70,8 @@ enum VolumeBinding : uint32_t {
   BIND_VIEW_AMBIENT = 17,
   BIND_LEAPS = 18,
   BIND_DISTANCES = 19,
-  VOLUME_BINDING_COUNT = 20
+  BIND_DIAMETERS = 20,
+  VOLUME_BINDING_COUNT = 21
 };
 enum CompositeBinding : uint32_t {
   BIND_COMPOSITE_FRAME = 0,

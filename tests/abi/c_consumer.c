@@ -194,6 +194,8 @@ static void phaseQueries(WlkContext context, WlkMedium medium) {
   WlkMediumOptics optics;
   double phase[6], sampled[2], density[2];
   const double angle[2] = {0.0, 1.0}, random[2] = {0.25, 0.75};
+  const float water = 1e-3f;
+  float extinction = 0.0f;
 
   INIT(WLK_STRUCT_PHASE_QUERY, query);
   query.medium = medium;
@@ -206,6 +208,8 @@ static void phaseQueries(WlkContext context, WlkMedium medium) {
   INIT(WLK_STRUCT_MEDIUM_OPTICS, optics);
   EXPECT(WLK_SUCCESS, wlkGetMediumOptics(context, medium, &optics));
   REQUIRE(optics.asymmetry[0] > 0.8f && optics.effectiveRadius_um > 0.0f);
+  EXPECT(WLK_SUCCESS, wlkEvalWaterExtinction(context, medium, 1, &water, NULL, &extinction));
+  REQUIRE(extinction > 0.1f && extinction < 1.0f);
 }
 
 /* Media serve the phase queries of a host; volumes are for rendering only and need a device. */
@@ -236,6 +240,8 @@ static void objects(WlkContext context) {
   REQUIRE(wlkUploadVolume(context, volume, &upload) < 0);
   INIT(WLK_STRUCT_VOLUME_BRICKS, bricks);
   REQUIRE(wlkUploadVolumeBricks(context, volume, &bricks) < 0);
+  REQUIRE(wlkUploadVolumeDiameters(context, volume, &upload) < 0);
+  REQUIRE(wlkClearVolumeDiameters(context, volume) < 0);
   INIT(WLK_STRUCT_VOLUME_STATE, state);
   EXPECT(WLK_ERROR_INVALID_HANDLE, wlkGetVolumeState(context, volume, &state));
   EXPECT(WLK_ERROR_INVALID_HANDLE, wlkDestroyVolume(context, volume));

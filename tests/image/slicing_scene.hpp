@@ -84,6 +84,7 @@ class SlicingScene {
   Picture render(const std::vector<float>& depth = {});
 
   WlkContext context() const { return scene_.context; }
+  WlkFrameStats stats() const { return scene_.stats(); }
   const std::vector<std::string>& messages() const { return scene_.messages(); }
 
  private:

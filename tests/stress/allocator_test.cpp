@@ -115,6 +115,14 @@ TEST(Allocator, EveryStepOfASceneSurvivesEveryFailure) {
                   memory, [&] { return wlkUploadVolume(c, volume, &upload); }, nothing),
               0u);
 
+    const std::vector<float> sizes(64, 9.0f);
+    auto diameters = upload;
+    diameters.data = sizes.data();
+    EXPECT_GT(failEachUntilSuccess(
+                  memory, [&] { return wlkUploadVolumeDiameters(c, volume, &diameters); }, nothing),
+              0u);
+    failEachUntilSuccess(memory, [&] { return wlkClearVolumeDiameters(c, volume); }, nothing);
+
     // Bricks, and voxels in their place again.
     const std::array<uint32_t, 3> origin{};
     const std::vector<float> brick(512, 0.25f);
