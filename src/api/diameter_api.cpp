@@ -30,8 +30,8 @@ void checkDiameters(const VolumeState& volume, const WlkVolumeUpload& u) {
   }
   if (!std::equal(volume.size.begin(), volume.size.end(), u.extent)) {
     fail(WLK_ERROR_INVALID_ARGUMENT, u.sType, "extent",
-         "diameters are given for all voxels at once, %u x %u x %u", volume.size[0],
-         volume.size[1], volume.size[2]);
+         "diameters are given for all voxels at once, %u x %u x %u", volume.size[0], volume.size[1],
+         volume.size[2]);
   }
 }
 
@@ -77,11 +77,9 @@ WlkResult wlkUploadVolumeDiameters(WlkContext context, WlkVolume volume,
     checkNoChain(diameters);
     checkDiameters(state, u);
     const FieldState& field = state.fields[u.field];
-    const std::shared_ptr<const DiameterNodes> nodes =
-        nodesOf(*c.media.find(field.mediumId));
+    const std::shared_ptr<const DiameterNodes> nodes = nodesOf(*c.media.find(field.mediumId));
     vk::Device& device = c.requireDevice("wlkUploadVolumeDiameters");
-    PendingUpload pending =
-        makePending(device, volume.id, DIAMETERS, state.size, sizeof(uint16_t));
+    PendingUpload pending = makePending(device, volume.id, DIAMETERS, state.size, sizeof(uint16_t));
     placeVoxels(*nodes, u, static_cast<uint16_t*>(pending.staging.data()));
     vk::Image image;
     if (!state.diameters) {

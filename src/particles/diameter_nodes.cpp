@@ -31,8 +31,8 @@ double DiameterNodes::extinctionPerMass(double diameter_um) const {
   const double efficiency = std::pow(meanEfficiency(particles[low]), 1 - t) *
                             std::pow(meanEfficiency(particles[low + 1]), t);
   // The spread is the same at all nodes: radii go as the diameter.
-  const double radius = particles[0].optics.effectiveRadius_um *
-                        std::pow(high_um / low_um, at / LAST) * M_PER_um;
+  const double radius =
+      particles[0].optics.effectiveRadius_um * std::pow(high_um / low_um, at / LAST) * M_PER_um;
   return 0.75 * efficiency / (WATER_DENSITY * radius);
 }
 

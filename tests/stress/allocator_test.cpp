@@ -121,7 +121,8 @@ TEST(Allocator, EveryStepOfASceneSurvivesEveryFailure) {
     EXPECT_GT(failEachUntilSuccess(
                   memory, [&] { return wlkUploadVolumeDiameters(c, volume, &diameters); }, nothing),
               0u);
-    failEachUntilSuccess(memory, [&] { return wlkClearVolumeDiameters(c, volume); }, nothing);
+    failEachUntilSuccess(
+        memory, [&] { return wlkClearVolumeDiameters(c, volume); }, nothing);
 
     // Bricks, and voxels in their place again.
     const std::array<uint32_t, 3> origin{};
