@@ -191,6 +191,10 @@ truth::VoxelVolume volumeOf(const host::Scene& scene, size_t index,
   std::array<int, 3> size{};
   host::Affine place{};
   for (size_t i = 0; i < desc.fields.size(); ++i) {
+    if (desc.fields[i].diameters) {
+      throw host::InputError(scene.file, key + ".fields." + std::to_string(i) + ".diameters",
+                             "the reference renderer has one diameter per field");
+    }
     host::Grid grid = host::loadSource(desc.fields[i].source);
     if (i == 0) {
       std::copy(grid.size.begin(), grid.size.end(), size.begin());

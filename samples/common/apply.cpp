@@ -20,6 +20,37 @@ void uploadField(WlkContext context, const Scene& scene, WlkVolume volume, uint3
   check(wlkUploadVolume(context, volume, &upload), scene.file, key);
 }
 
+void uploadDiameters(WlkContext context, const Scene& scene, WlkVolume volume, uint32_t field,
+                     const Grid& grid, const std::string& key) {
+  auto upload = make<WlkVolumeUpload>();
+  upload.field = field;
+  upload.format = WLK_FORMAT_R32_FLOAT;
+  std::copy(grid.size.begin(), grid.size.end(), upload.extent);
+  upload.data = grid.values.data();
+  upload.dataSize = grid.values.size() * sizeof(float);
+  check(wlkUploadVolumeDiameters(context, volume, &upload), scene.file, key + ".diameters");
+}
+
+// Voxels of bricks; 0 where there is none.
+Grid denseOf(const BrickField& field, const std::array<uint32_t, 3>& size) {
+  constexpr uint32_t EDGE = 8;
+  constexpr size_t VOXELS = size_t{EDGE} * EDGE * EDGE;
+  Grid grid;
+  grid.size = size;
+  grid.values.assign(checkedVoxelCount("diameters", {size[0], size[1], size[2]}), 0.0f);
+  for (size_t i = 0; i < field.values.size(); ++i) {
+    const uint32_t* brick = &field.coordinates[3 * (i / VOXELS)];
+    const auto inside = static_cast<uint32_t>(i % VOXELS);
+    const std::array<uint32_t, 3> at{EDGE * brick[0] + inside % EDGE,
+                                     EDGE * brick[1] + inside / EDGE % EDGE,
+                                     EDGE * brick[2] + inside / EDGE / EDGE};
+    if (at[0] < size[0] && at[1] < size[1] && at[2] < size[2]) {
+      grid.values[at[0] + size[0] * (at[1] + size_t{size[1]} * at[2])] = field.values[i];
+    }
+  }
+  return grid;
+}
+
 void applyFog(WlkContext context, const Scene& scene) {
   if (!scene.fog || !scene.fogMedium) {
     check(wlkSetFog(context, scene.fog ? &*scene.fog : nullptr), scene.file, "fog");
@@ -66,6 +97,17 @@ void applyBricks(WlkContext context, const Scene& scene, size_t index,
   for (const FieldDesc& field : desc.fields) {
     sources.push_back({field.source.file, std::get<VdbInfo>(field.source.info)});
   }
+  const std::string key = "volumes." + std::to_string(index) + ".fields.";
+  for (uint32_t i = 0; i < desc.fields.size(); ++i) {
+    if (desc.fields[i].diameters) {
+      const SourceDesc& source = *desc.fields[i].diameters;
+      if (!std::holds_alternative<VdbInfo>(source.info)) {
+        throw InputError(scene.file, key + std::to_string(i) + ".diameters",
+                         "expected a grid of OpenVDB as the fields are");
+      }
+      sources.push_back({source.file, std::get<VdbInfo>(source.info)});
+    }
+  }
   const BrickVolume bricks = loadVdbBricks(sources);
   // The scene places the active voxels; the volume reaches to whole bricks.
   const Affine place = placeVolume(bricks.worldFromActive, desc.placement);
@@ -77,7 +119,7 @@ void applyBricks(WlkContext context, const Scene& scene, size_t index,
       context, scene, index, media, bricks.size,
       affineFromEdges(origin, moved({1.0, 0.0, 0.0}) - origin, moved({0.0, 1.0, 0.0}) - origin,
                       moved({0.0, 0.0, 1.0}) - origin));
-  for (uint32_t i = 0; i < bricks.fields.size(); ++i) {
+  for (uint32_t i = 0; i < desc.fields.size(); ++i) {
     const BrickField& field = bricks.fields[i];
     auto upload = make<WlkVolumeBricks>();
     upload.field = i;
@@ -85,8 +127,11 @@ void applyBricks(WlkContext context, const Scene& scene, size_t index,
     upload.coordinates = field.coordinates.data();
     upload.data = field.values.data();
     upload.dataSize = field.values.size() * sizeof(float);
-    check(wlkUploadVolumeBricks(context, volume, &upload), scene.file,
-          "volumes." + std::to_string(index) + ".fields." + std::to_string(i));
+    check(wlkUploadVolumeBricks(context, volume, &upload), scene.file, key + std::to_string(i));
+    if (desc.fields[i].diameters) {
+      uploadDiameters(context, scene, volume, i, denseOf(bricks.fields.back(), bricks.size),
+                      key + std::to_string(i));
+    }
   }
 }
 
@@ -105,6 +150,16 @@ void applyVolume(WlkContext context, const Scene& scene, size_t index,
                        "expected as many voxels as in field 0");
     }
     uploadField(context, scene, volume, i, other, key);
+  }
+  for (uint32_t i = 0; i < desc.fields.size(); ++i) {
+    if (desc.fields[i].diameters) {
+      const std::string name = key + ".fields." + std::to_string(i);
+      const Grid diameters = loadSource(*desc.fields[i].diameters);
+      if (diameters.size != grid.size) {
+        throw InputError(scene.file, name + ".diameters", "expected as many voxels as in field 0");
+      }
+      uploadDiameters(context, scene, volume, i, diameters, name);
+    }
   }
 }
 

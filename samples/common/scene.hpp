@@ -34,7 +34,7 @@ WlkMediumInfo mediumInfo(const MediumDesc& medium);
 struct SourceDesc {
   /// Empty for generated data.
   std::filesystem::path file;
-  std::variant<RawInfo, LesInfo, VdbInfo, CumulusInfo, SlabInfo> info;
+  std::variant<RawInfo, LesInfo, VdbInfo, CumulusInfo, SlabInfo, GradientInfo> info;
 };
 
 /// Loads or makes the grid. Throws InputError.
@@ -61,6 +61,8 @@ struct FieldDesc {
   size_t medium = 0;
   double extinctionScale = 1.0;
   SourceDesc source;
+  /// Diameter of the droplets per voxel, um.
+  std::optional<SourceDesc> diameters;
 };
 
 struct VolumeDesc {

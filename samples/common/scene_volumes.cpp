@@ -52,8 +52,11 @@ RawInfo parseRaw(const JsonNode& node) {
 }
 
 LesInfo parseLes(const JsonNode& node) {
-  node.onlyKeys({"type", "file", "indexBase", "up"});
+  node.onlyKeys({"type", "file", "indexBase", "up", "quantity"});
   LesInfo info;
+  if (node.has("quantity")) {
+    info.diameters = node.at("quantity").word({"extinction", "diameter"}) == 1;
+  }
   if (node.has("indexBase")) {
     info.indexBase = static_cast<int>(node.at("indexBase").count(0, 1));
   }
@@ -85,6 +88,16 @@ CumulusInfo parseCumulus(const JsonNode& node) {
   return info;
 }
 
+GradientInfo parseGradient(const JsonNode& node) {
+  node.onlyKeys({"type", "size", "axis", "from", "to"});
+  GradientInfo info;
+  info.size = parseSize(node.at("size"));
+  info.axis = node.has("axis") ? node.at("axis").word({"x", "y", "z"}) : 0;
+  node.optional("from", info.from, 1e-6, 65504.0);
+  node.optional("to", info.to, 1e-6, 65504.0);
+  return info;
+}
+
 SlabInfo parseSlab(const JsonNode& node) {
   node.onlyKeys({"type", "size", "extent", "edge", "noise", "noiseSize", "seed"});
   SlabInfo info;
@@ -108,12 +121,14 @@ SlabInfo parseSlab(const JsonNode& node) {
 
 SourceDesc parseSource(const JsonNode& node) {
   SourceDesc source;
-  const uint32_t type = node.at("type").word({"raw", "les", "vdb", "cumulus", "slab"});
+  const uint32_t type = node.at("type").word({"raw", "les", "vdb", "cumulus", "slab", "gradient"});
   if (type >= 3) {
     if (type == 3) {
       source.info = parseCumulus(node);
-    } else {
+    } else if (type == 4) {
       source.info = parseSlab(node);
+    } else {
+      source.info = parseGradient(node);
     }
     return source;
   }
@@ -147,7 +162,7 @@ PlacementDesc parsePlacement(const JsonNode& node) {
 
 FieldDesc parseField(const JsonNode& node, const std::optional<SourceDesc>& shared,
                      const Scene& scene) {
-  node.onlyKeys({"medium", "extinctionScale", "source"});
+  node.onlyKeys({"medium", "extinctionScale", "source", "diameters"});
   FieldDesc field;
   const std::string name = node.at("medium").text();
   const auto found = std::find_if(scene.media.begin(), scene.media.end(),
@@ -163,6 +178,9 @@ FieldDesc parseField(const JsonNode& node, const std::optional<SourceDesc>& shar
     field.source = *shared;
   } else {
     node.fail("expected a source here or in the volume");
+  }
+  if (node.has("diameters")) {
+    field.diameters = parseSource(node.at("diameters"));
   }
   return field;
 }
@@ -180,6 +198,10 @@ VolumeDesc parseVolume(const JsonNode& node, const Scene& scene) {
   }
   if (volume.fields.empty() || volume.fields.size() > WLK_MAX_FIELDS) {
     fields.fail("expected 1 to 4 fields");
+  }
+  if (std::count_if(volume.fields.begin(), volume.fields.end(),
+                    [](const FieldDesc& field) { return field.diameters.has_value(); }) > 1) {
+    fields.fail("expected diameters for one field");
   }
   if (node.has("transform")) {
     volume.placement = parsePlacement(node.at("transform"));
@@ -287,6 +309,22 @@ void parseVolumes(const JsonNode& root, Scene& scene) {
   }
 }
 
+Grid makeGradient(const GradientInfo& info) {
+  Grid grid;
+  grid.size = info.size;
+  grid.values.resize(checkedVoxelCount("gradient", {info.size[0], info.size[1], info.size[2]}));
+  grid.worldFromVolume = affineFromEdges({}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0});
+  const size_t n = info.size[info.axis];
+  const size_t step = info.axis == 0   ? 1
+                      : info.axis == 1 ? size_t{info.size[0]}
+                                       : size_t{info.size[0]} * info.size[1];
+  for (size_t i = 0; i < grid.values.size(); ++i) {
+    const double t = n == 1 ? 0.0 : static_cast<double>(i / step % n) / static_cast<double>(n - 1);
+    grid.values[i] = static_cast<float>(info.from * std::pow(info.to / info.from, t));
+  }
+  return grid;
+}
+
 Grid loadSource(const SourceDesc& source) {
   struct Loader {
     const std::filesystem::path& file;
@@ -295,6 +333,7 @@ Grid loadSource(const SourceDesc& source) {
     Grid operator()(const VdbInfo& info) const { return loadVdb(file, info); }
     Grid operator()(const CumulusInfo& info) const { return makeCumulus(info); }
     Grid operator()(const SlabInfo& info) const { return makeSlab(info); }
+    Grid operator()(const GradientInfo& info) const { return makeGradient(info); }
   };
   return std::visit(Loader{source.file}, source.info);
 }

@@ -50,11 +50,14 @@ struct LesInfo {
   /// otherwise 0.
   int indexBase = -1;
   UpAxis up = UpAxis::Z;
+  /// The droplets' median diameter instead of the extinction.
+  bool diameters = false;
 };
 
 /// Large-eddy simulation as text: a comment line, `nx ny nz`, `dx dy` and nz level altitudes in
 /// km, then rows `ix iy iz lwc reff` in g/m^3 and um. Values are extinction in 1/m,
-/// 1.5 lwc / reff (water of 1e6 g/m^3, extinction efficiency 2). Cell k is centred on level k.
+/// 1.5 lwc / reff (water of 1e6 g/m^3, extinction efficiency 2), or median diameters in um,
+/// 2 reff / exp(2.5 spread^2) for the spread of the library's tables. Cell k is centred on level k.
 Grid loadLes(const std::filesystem::path& file, const LesInfo& info);
 
 struct VdbInfo {
@@ -107,6 +110,17 @@ struct CumulusInfo {
 /// A fair-weather cumulus with a flat base and a cauliflower top, density in [0, 1], 0 on the
 /// box's faces. The same input gives the same cloud on every machine, up to rounding in libm.
 Grid makeCumulus(const CumulusInfo& info);
+
+struct GradientInfo {
+  std::array<uint32_t, 3> size{1, 1, 1};
+  uint32_t axis = 0;
+  /// Values in the first and last voxels along the axis, > 0; even steps of the logarithm between.
+  double from = 1.0;
+  double to = 1.0;
+};
+
+/// The same across the other axes; a box of 1 m.
+Grid makeGradient(const GradientInfo& info);
 
 struct SlabInfo {
   std::array<uint32_t, 3> size{32, 32, 32};

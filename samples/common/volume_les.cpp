@@ -15,6 +15,7 @@ constexpr size_t MAX_LES_BYTES = size_t{1} << 30;
 constexpr double METRES_PER_KILOMETRE = 1000.0;
 // Levels may be printed with three decimals of a kilometre: 1 m of 40 m.
 constexpr double LEVEL_TOLERANCE = 0.05;
+constexpr double MEDIAN_OF_EFFECTIVE = 0.8553453273074225;  // exp(-2.5 * 0.25^2)
 
 struct Header {
   std::array<uint32_t, 3> size{};
@@ -26,7 +27,7 @@ struct Header {
 
 struct Cell {
   std::array<uint32_t, 3> index{};
-  float extinction = 0.0f;
+  float value = 0.0f;
 };
 
 // Reads one file line by line and says where it is when something is wrong.
@@ -105,7 +106,7 @@ Header readHeader(const std::string& file, Reader& reader) {
   return header;
 }
 
-std::vector<Cell> readCells(Reader& reader, const Header& header) {
+std::vector<Cell> readCells(Reader& reader, const Header& header, bool diameters) {
   std::vector<Cell> cells;
   std::vector<double> numbers;
   while (reader.next(numbers)) {
@@ -126,7 +127,8 @@ std::vector<Cell> readCells(Reader& reader, const Header& header) {
     if (numbers[3] < 0.0 || numbers[3] > 1e4 || numbers[4] < 1e-2 || numbers[4] > 1e4) {
       reader.fail("expected lwc in [0, 1e4] g/m^3 and reff in [0.01, 1e4] um");
     }
-    cell.extinction = static_cast<float>(1.5 * numbers[3] / numbers[4]);
+    cell.value = static_cast<float>(diameters ? MEDIAN_OF_EFFECTIVE * 2.0 * numbers[4]
+                                              : 1.5 * numbers[3] / numbers[4]);
     cells.push_back(cell);
   }
   return cells;
@@ -156,7 +158,7 @@ Grid loadLes(const std::filesystem::path& path, const LesInfo& info) {
   const std::string file = path.string();
   Reader reader(file, readTextFile(file, MAX_LES_BYTES, "LES text"));
   const Header header = readHeader(file, reader);
-  const std::vector<Cell> cells = readCells(reader, header);
+  const std::vector<Cell> cells = readCells(reader, header, info.diameters);
   const uint32_t base = findIndexBase(file, header, cells, info.indexBase);
 
   Grid grid;
@@ -166,7 +168,7 @@ Grid loadLes(const std::filesystem::path& path, const LesInfo& info) {
     const size_t x = cell.index[0] - base;
     const size_t y = cell.index[1] - base;
     const size_t z = cell.index[2] - base;
-    grid.values[x + header.size[0] * (y + header.size[1] * z)] = cell.extinction;
+    grid.values[x + header.size[0] * (y + header.size[1] * z)] = cell.value;
   }
   grid.worldFromVolume =
       affineFromEdges(worldAxes({0.0, 0.0, header.firstLevel - 0.5 * header.dz}, info.up),

@@ -47,7 +47,8 @@ TEST(HostScene, ReadsEverySection) {
     "lights": [{"elevation_deg": 30, "azimuth_deg": 90, "irradiance": [1, 2, 3]}],
     "media": {"drop": {"particle": "henyey-greenstein", "asymmetry": 0.5}},
     "volumes": [{"source": {"type": "cumulus", "size": [8, 8, 8]},
-                 "fields": [{"medium": "drop", "extinctionScale": 0.05}],
+                 "fields": [{"medium": "drop", "extinctionScale": 0.05, "diameters":
+                   {"type": "gradient", "size": [8, 4, 8], "axis": "y", "from": 2, "to": 16}}],
                  "transform": {"min": [0, 1, 2], "size": [3, 4, 5]}}],
     "quality": {"level": "low", "slicing": "light-aligned", "scattering": "single",
                 "noSkip": true},
@@ -68,6 +69,12 @@ TEST(HostScene, ReadsEverySection) {
   EXPECT_EQ(scene.media[0].info.particle, uint32_t{WLK_PARTICLE_HENYEY_GREENSTEIN});
   EXPECT_EQ(scene.media[0].info.asymmetry, 0.5f);
   EXPECT_EQ(scene.volumes[0].fields[0].extinctionScale, 0.05);
+  ASSERT_TRUE(scene.volumes[0].fields[0].diameters);
+  const host::Grid diameters = host::loadSource(*scene.volumes[0].fields[0].diameters);
+  ASSERT_EQ(diameters.values.size(), 8u * 4 * 8);
+  EXPECT_FLOAT_EQ(diameters.values[7], 2.0f);
+  EXPECT_FLOAT_EQ(diameters.values[8], 4.0f);
+  EXPECT_FLOAT_EQ(diameters.values.back(), 16.0f);
   EXPECT_TRUE(scene.volumes[0].placement.box);
   EXPECT_EQ(scene.quality.slicing, uint32_t{WLK_SLICING_LIGHT_ALIGNED});
   EXPECT_EQ(scene.quality.scattering, uint32_t{WLK_SCATTERING_SINGLE});
@@ -264,7 +271,7 @@ TEST(HostScene, NamesMistakesInVolumes) {
   expectSceneError("volumes.0.fields.0.medium: expected the name of one of media",
                    volume(R"("fields": [{"medium": "fog"}])"));
   expectSceneError(
-      "volumes.0.source.type: expected one of raw, les, vdb, cumulus, slab, got \"obj\"",
+      "volumes.0.source.type: expected one of raw, les, vdb, cumulus, slab, gradient, got \"obj\"",
       volume(R"("source": {"type": "obj"}, )" + field));
   expectSceneError("volumes.0.source.file: expected a value, got none",
                    volume(R"("source": {"type": "vdb"}, )" + field));
@@ -272,6 +279,9 @@ TEST(HostScene, NamesMistakesInVolumes) {
                    volume(R"("source": {"type": "cumulus", "size": [4, 0, 4]}, )" + field));
   expectSceneError("volumes.0.source.edge: expected three lengths >= 0",
                    volume(R"("source": {"type": "slab", "edge": [0, -1, 0]}, )" + field));
+  expectSceneError(
+      "volumes.0.source.from: expected a number in",
+      volume(R"("source": {"type": "gradient", "size": [1, 1, 1], "from": 0}, )" + field));
   expectSceneError("volumes.0.source.noise: expected a number in [0, 1]",
                    volume(R"("source": {"type": "slab", "noise": 1.5}, )" + field));
   expectSceneError("volumes.0.transform: expected min and size, or",

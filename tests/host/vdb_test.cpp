@@ -221,6 +221,63 @@ TEST(HostVdb, RendersAsTheSameVoxelsFromAnotherFile) {
   EXPECT_GT(apart(host::readExr(folder.file("none.exr")), truth), 0.01f);
 }
 
+// Diameters in a grid beside the density's, against the same numbers as raw floats.
+TEST(HostVdb, DiametersComeFromAGridOfTheirOwn) {
+  const host_test::TempFolder folder;
+  const auto density = makeGrid(20.0);
+  const auto diameter = makeGrid(20.0);
+  density->setName("density");
+  diameter->setName("diameter");
+  std::string raw;
+  std::string rawDiameters;
+  for (int n = 0; n < 16 * 8 * 8; ++n) {
+    const openvdb::Coord at(n % 16, n / 16 % 8, n / 128);
+    const float value = 0.5f;
+    const float size = at.x() < 8 ? 6.0f : 30.0f;
+    density->getAccessor().setValue(at, value);
+    diameter->getAccessor().setValue(at, size);
+    raw.append(reinterpret_cast<const char*>(&value), sizeof value);
+    rawDiameters.append(reinterpret_cast<const char*>(&size), sizeof size);
+  }
+  openvdb::io::File(folder.file("a.vdb")).write({density, diameter});
+  static_cast<void>(folder.write("a.raw", raw));
+  static_cast<void>(folder.write("d.raw", rawDiameters));
+  const auto with = [&](const std::string& source, const std::string& diameters) {
+    return R"({"lights": [{"elevation_deg": 4, "azimuth_deg": 170}], "media": {"m": {}},
+      "volumes": [{"source": )" +
+           source + R"(, "transform": {"min": [-200, 300, -1000], "size": [400, 200, 200]},
+      "fields": [{"medium": "m", "extinctionScale": 0.02)" +
+           diameters + R"(}]}], "quality": {"scattering": "single"},
+      "camera": {"position": [0, 400, 0], "target": [0, 400, -1000]}, "view": {"size": [32, 24]}})";
+  };
+  const std::string rawSource = R"({"type": "raw", "file": "a.raw", "size": [16, 8, 8]})";
+  const std::string rawField =
+      R"(, "diameters": {"type": "raw", "file": "d.raw", "size": [16, 8, 8]})";
+  static_cast<void>(folder.write(
+      "vdb.json", with(R"({"type": "vdb", "file": "a.vdb"})",
+                       R"(, "diameters": {"type": "vdb", "file": "a.vdb", "grid": "diameter"})")));
+  static_cast<void>(folder.write("raw.json", with(rawSource, rawField)));
+  static_cast<void>(folder.write("none.json", with(rawSource, "")));
+  static_cast<void>(
+      folder.write("bad.json", with(R"({"type": "vdb", "file": "a.vdb"})", rawField)));
+  host_test::expectSuccess(folder, "render vdb.json -o vdb.exr");
+  host_test::expectSuccess(folder, "render raw.json -o raw.exr");
+  host_test::expectSuccess(folder, "render none.json -o none.exr");
+  const auto apart = [&](const char* a, const char* b) {
+    const host::Image one = host::readExr(folder.file(a));
+    const host::Image other = host::readExr(folder.file(b));
+    double most = 0;
+    double mean = 0;
+    for (size_t i = 0; i < one.rgba.size(); ++i) {
+      most = std::max(most, double{std::abs(one.rgba[i] - other.rgba[i])});
+      mean += double{other.rgba[i]} / static_cast<double>(one.rgba.size());
+    }
+    return most / mean;
+  };
+  EXPECT_LE(apart("vdb.exr", "raw.exr"), 0.01);
+  EXPECT_GT(apart("none.exr", "raw.exr"), 0.05);
+}
+
 template <typename T>
 void put(std::string& bytes, size_t at, T value) {
   std::memcpy(bytes.data() + at, &value, sizeof value);

@@ -51,6 +51,18 @@ TEST(HostLes, TurnsLiquidWaterIntoExtinction) {
   EXPECT_EQ(std::count(grid.values.begin(), grid.values.end(), 0.0f), 10);
 }
 
+TEST(HostLes, HasTheMedianDiameterOfTheEffectiveRadius) {
+  const host_test::TempFolder folder;
+  host::LesInfo info;
+  info.diameters = true;
+  const host::Grid grid =
+      host::loadLes(folder.write("les.txt", LES_HEADER + "1 1 1 0.5 10\n3 2 2 0.2 15.0\n"), info);
+  // Log-normal: effective radius = median radius * exp(2.5 spread^2).
+  const double factor = 2 / std::exp(2.5 * 0.25 * 0.25);
+  EXPECT_FLOAT_EQ(grid.values[0], static_cast<float>(10 * factor));
+  EXPECT_FLOAT_EQ(grid.values[11], static_cast<float>(15 * factor));
+}
+
 TEST(HostLes, PutsLevelsAtCellCentresWithTheDataSZUp) {
   const host::Grid grid = les(LES_HEADER + "1 1 1 0.5 10\n");
   // Centre of cell (0, 0, 1): half a cell east, half a cell north (-z), on level 0.54 km.
