@@ -62,7 +62,8 @@ enum {
   WLK_ERROR_OUT_OF_HOST_MEMORY = -6,
   /** Vulkan reported no device memory, or the resource exceeds a device limit's memory. */
   WLK_ERROR_OUT_OF_DEVICE_MEMORY = -7,
-  /** Vulkan reported a lost device; only destroy calls are useful from here on. */
+  /** Vulkan reported a lost device. From here on all that needs the device fails so without a call
+   *  of Vulkan; destroy calls free what they can. */
   WLK_ERROR_DEVICE_LOST = -8,
   /** A format that the role does not support. */
   WLK_ERROR_UNSUPPORTED_FORMAT = -9,
@@ -202,6 +203,11 @@ typedef struct WlkContextInfo {
   /** Log receiver. Default null: silent. */
   WlkLogCallback log;
   void* logUser;
+  /** Most device memory that the context allocates; what would exceed it fails with
+   *  OUT_OF_DEVICE_MEMORY before the driver is asked, and names this field. Memory is taken in
+   *  blocks of 16 MiB, and more for what is larger. bytes, 0: no limit. Default 0, also for callers
+   *  whose structSize ends before it. */
+  uint64_t deviceMemoryLimit;
 } WlkContextInfo;
 
 enum {

@@ -133,11 +133,15 @@ WlkContext_T::WlkContext_T(const WlkContextInfo& contextInfo)
     options.log = log;
     options.logUser = logUser;
     headless.emplace(options);
-    device.emplace(headless->deviceInfo(), &memory);
+    vk::DeviceInfo own = headless->deviceInfo();
+    own.memoryLimit = contextInfo.deviceMemoryLimit;
+    device.emplace(own, &memory);
     headless->attach(*device);
     mode = WLK_MODE_HEADLESS;
   } else if (chain.device != nullptr) {
-    device.emplace(deviceInfoOf(*chain.device), &memory);
+    vk::DeviceInfo engines = deviceInfoOf(*chain.device);
+    engines.memoryLimit = contextInfo.deviceMemoryLimit;
+    device.emplace(engines, &memory);
     checkQueueFamily(*device, &memory);
     mode = WLK_MODE_ENGINE_DEVICE;
   }
@@ -290,6 +294,7 @@ WlkContext_T& checkContext(WlkContext context) {
   if (context == nullptr || context->magic != CONTEXT_MAGIC) {
     fail(WLK_ERROR_INVALID_HANDLE, 0, "context", "the context is null or destroyed");
   }
+  enterContext(&context->deviceLost);
   return *context;
 }
 
@@ -299,7 +304,7 @@ WlkResult wlkCreateContext(const WlkContextInfo* info, WlkContext* context) {
   return guarded([&] {
     checkPointer(context, "context");
     *context = nullptr;
-    const WlkContextInfo copy = copyStruct(info, WLK_STRUCT_CONTEXT_INFO);
+    const WlkContextInfo copy = copyStruct(info, WLK_STRUCT_CONTEXT_INFO, CONTEXT_FIRST_SIZE);
     // 0.x: the minor version is the compatibility line.
     if (copy.apiVersion >> 12 != WLK_API_VERSION >> 12) {
       fail(WLK_ERROR_VERSION, WLK_STRUCT_CONTEXT_INFO, "apiVersion",

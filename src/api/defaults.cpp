@@ -204,7 +204,7 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
     case WLK_STRUCT_ERROR_INFO:
       return write(blank<WlkErrorInfo>(sType), structSize, structure);
     case WLK_STRUCT_CONTEXT_INFO:
-      return write(context(), structSize, structure);
+      return write(context(), structSize, structure, CONTEXT_FIRST_SIZE);
     case WLK_STRUCT_HEADLESS_INFO:
       return write(blank<WlkHeadlessInfo>(sType), structSize, structure);
     case WLK_STRUCT_CAPABILITIES:

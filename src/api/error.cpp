@@ -9,10 +9,18 @@ namespace welkin {
 namespace {
 
 thread_local Failure lastFailure{WLK_SUCCESS, 0, 0, {}, {}};
+thread_local bool* lostFlag = nullptr;
 
 }  // namespace
 
+void enterContext(bool* deviceLost) noexcept {
+  lostFlag = deviceLost;
+}
+
 WlkResult reportFailure(const Failure& failure) noexcept {
+  if (failure.result == WLK_ERROR_DEVICE_LOST && lostFlag != nullptr) {
+    *lostFlag = true;
+  }
   lastFailure = failure;
   return failure.result;
 }

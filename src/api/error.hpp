@@ -8,12 +8,17 @@
 
 namespace welkin {
 
+// The calling thread works on a context from here on: a failure by a lost device sets the flag.
+// Null for none.
+void enterContext(bool* deviceLost) noexcept;
+
 WlkResult reportFailure(const Failure& failure) noexcept;
 WlkResult reportOutOfMemory() noexcept;
 WlkResult reportInternal(const char* what) noexcept;
 
 template <typename Body>
 WlkResult guarded(Body&& body) noexcept {
+  enterContext(nullptr);
   try {
     return body();
   } catch (const Failure& failure) {

@@ -426,12 +426,7 @@ WlkResult wlkRenderHeadless(WlkContext context, WlkView view, const WlkHeadlessT
       fail(WLK_ERROR_NOT_PREPARED, 0, "view", "call wlkPrepare before rendering");
     }
     ++c.frameIndex;
-    try {
-      renderHeadless(c, state, value);
-    } catch (const Failure& failure) {
-      c.deviceLost = c.deviceLost || failure.result == WLK_ERROR_DEVICE_LOST;
-      throw;
-    }
+    renderHeadless(c, state, value);
     return WLK_SUCCESS;
   });
 }

@@ -25,6 +25,7 @@ void checkPointer(const void* pointer, const char* argument);
 
 // What WlkRayBatch was before maxOrder, WlkLight before limbDarkening, WlkFog before medium,
 // targets before shadow maps.
+constexpr uint32_t CONTEXT_FIRST_SIZE = offsetof(WlkContextInfo, deviceMemoryLimit);
 constexpr uint32_t RAY_BATCH_FIRST_SIZE = offsetof(WlkRayBatch, maxOrder);
 constexpr uint32_t VIEW_FIRST_SIZE = offsetof(WlkViewInfo, color);
 constexpr uint32_t LIGHT_FIRST_SIZE = offsetof(WlkLight, limbDarkening);

@@ -65,7 +65,7 @@ std::pmr::vector<uint32_t> reachedBricks(const BrickGrid& grid, std::span<const 
   for (const uint32_t index : occupied) {
     const Edges brick = grid.brickOf(index);
     for (uint32_t axes = 0; axes < 8; ++axes) {
-      if ((faces[index] >> axes & 1u) != 0 && hasBrickBefore(brick, axes)) {
+      if ((uint32_t{faces[index]} >> axes & 1u) != 0 && hasBrickBefore(brick, axes)) {
         reached.push_back(static_cast<uint32_t>(brickBefore(grid, index, axes)));
       }
     }
@@ -86,7 +86,7 @@ void markReached(const BrickGrid& grid, std::span<const uint8_t> faces,
     }
     const Edges brick = grid.brickOf(index);
     for (uint32_t axes = 0; axes < 8; ++axes) {
-      if ((faces[index] >> axes & 1u) != 0 && hasBrickBefore(brick, axes)) {
+      if ((uint32_t{faces[index]} >> axes & 1u) != 0 && hasBrickBefore(brick, axes)) {
         distances[brickBefore(grid, index, axes)] = 0;
       }
     }

@@ -27,7 +27,7 @@ Device::Device(const DeviceInfo& info, std::pmr::memory_resource* host) : info_(
     }
   }
   loadDeviceFunctions(vk_, info.device, info.headless);
-  memory_.emplace(vk_, info.physicalDevice, info.device, host);
+  memory_.emplace(vk_, info.physicalDevice, info.device, info.memoryLimit, host);
 }
 
 bool Device::supports(VkFormat format, VkFormatFeatureFlags features) const {

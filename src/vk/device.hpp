@@ -21,6 +21,7 @@ struct DeviceInfo {
   uint32_t queueFamilyIndex = 0;
   bool dualSrcBlend = false;
   bool headless = false;
+  VkDeviceSize memoryLimit = 0;  // 0: none
 };
 
 class Device {

@@ -17,8 +17,8 @@ VkDeviceSize alignUp(VkDeviceSize x, VkDeviceSize alignment) {
 }  // namespace
 
 DeviceMemory::DeviceMemory(const Dispatch& table, VkPhysicalDevice physical, VkDevice device,
-                           std::pmr::memory_resource* host)
-    : vk_(table), device_(device), blocks_(host) {
+                           VkDeviceSize limit, std::pmr::memory_resource* host)
+    : vk_(table), device_(device), blocks_(host), limit_(limit != 0 ? limit : ~VkDeviceSize{0}) {
   vk_.GetPhysicalDeviceMemoryProperties(physical, &properties_);
   for (uint32_t i = 0; i < properties_.memoryHeapCount; ++i) {
     largestHeap_ = std::max(largestHeap_, properties_.memoryHeaps[i].size);
@@ -74,6 +74,18 @@ bool DeviceMemory::place(Block& block, const VkMemoryRequirements& needs, Alloca
   return false;
 }
 
+VkDeviceSize DeviceMemory::blockSize(VkDeviceSize needed) const {
+  const VkDeviceSize room = limit_ - bytes_;
+  if (needed > room) {
+    fail(WLK_ERROR_OUT_OF_DEVICE_MEMORY, WLK_STRUCT_CONTEXT_INFO, "deviceMemoryLimit",
+         "%llu bytes more than the %llu in use exceed WlkContextInfo::deviceMemoryLimit, %llu",
+         static_cast<unsigned long long>(needed), static_cast<unsigned long long>(bytes_),
+         static_cast<unsigned long long>(limit_));
+  }
+  // The last block under a limit may be a small one.
+  return std::max(needed, std::min(BLOCK_SIZE, room));
+}
+
 uint32_t DeviceMemory::newBlock(VkDeviceSize size, uint32_t type, bool hostVisible, bool linear) {
   size_t slot = 0;
   while (slot < blocks_.size() && blocks_[slot].memory != VK_NULL_HANDLE) {
@@ -126,8 +138,7 @@ Allocation DeviceMemory::allocate(const VkMemoryRequirements& needs, bool hostVi
       return result;
     }
   }
-  result.block = newBlock(std::max(needs.size, needs.size > BLOCK_SIZE ? 0 : BLOCK_SIZE), type,
-                          hostVisible, linear);
+  result.block = newBlock(blockSize(needs.size), type, hostVisible, linear);
   if (!place(blocks_[result.block], needs, result)) {
     fail(WLK_ERROR_INTERNAL, 0, "size", "a fresh block did not hold its resource");
   }

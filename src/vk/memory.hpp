@@ -19,8 +19,9 @@ struct Allocation {
 
 class DeviceMemory {
  public:
+  // At most `limit` bytes in all; 0: no limit.
   DeviceMemory(const Dispatch& table, VkPhysicalDevice physical, VkDevice device,
-               std::pmr::memory_resource* host);
+               VkDeviceSize limit, std::pmr::memory_resource* host);
   ~DeviceMemory();
   DeviceMemory(const DeviceMemory&) = delete;
   DeviceMemory& operator=(const DeviceMemory&) = delete;
@@ -49,12 +50,14 @@ class DeviceMemory {
   };
   uint32_t memoryType(uint32_t bits, bool hostVisible) const;
   bool place(Block& block, const VkMemoryRequirements& needs, Allocation& result);
+  VkDeviceSize blockSize(VkDeviceSize needed) const;
   uint32_t newBlock(VkDeviceSize size, uint32_t type, bool hostVisible, bool linear);
 
   const Dispatch& vk_;
   VkDevice device_;
   VkPhysicalDeviceMemoryProperties properties_{};
   std::pmr::vector<Block> blocks_;
+  VkDeviceSize limit_;
   VkDeviceSize bytes_ = 0;
   VkDeviceSize largestHeap_ = 0;
 };

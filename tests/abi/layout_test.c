@@ -36,13 +36,14 @@ AT(WlkAllocator, user, 0);
 AT(WlkAllocator, allocate, 8);
 AT(WlkAllocator, release, 16);
 
-SIZE(WlkContextInfo, 64);
+SIZE(WlkContextInfo, 72);
 HEAD(WlkContextInfo);
 AT(WlkContextInfo, apiVersion, 16);
 AT(WlkContextInfo, maxFramesInFlight, 20);
 AT(WlkContextInfo, allocator, 24);
 AT(WlkContextInfo, log, 48);
 AT(WlkContextInfo, logUser, 56);
+AT(WlkContextInfo, deviceMemoryLimit, 64);
 
 SIZE(WlkHeadlessInfo, 32);
 HEAD(WlkHeadlessInfo);

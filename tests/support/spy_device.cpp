@@ -235,7 +235,12 @@ void SpyDevice::run(const std::function<void(VkCommandBuffer)>& record) const {
   VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   require(vkBeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
-  record(commands_);
+  try {
+    record(commands_);
+  } catch (...) {
+    vkEndCommandBuffer(commands_);  // thrown away: the next begin resets it
+    throw;
+  }
   require(vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
   VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
   submit.commandBufferCount = 1;

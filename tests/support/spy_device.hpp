@@ -45,7 +45,7 @@ class SpyDevice {
   // Every name that the library asked of vkGetDeviceProcAddr.
   static const std::set<std::string>& namesAsked();
 
-  // Records with `record`, submits, waits.
+  // Records with `record`, submits, waits. Where `record` throws, nothing is submitted.
   void run(const std::function<void(VkCommandBuffer)>& record) const;
   const std::vector<std::string>& messages() const { return messages_; }
 
