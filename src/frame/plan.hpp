@@ -11,6 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "frame/plan_slices.hpp"
+
 namespace welkin {
 
 constexpr uint32_t MAX_LIGHTS = 2;
@@ -54,24 +56,6 @@ struct PlanetFrame {
   double altitude = 0;     // of that point, m
 };
 PlanetFrame planetFrameAt(const WlkPlanet& planet, const glm::dvec3& point);
-
-// Slabs through a volume and the light buffer beside them, all relative to the eye, in m.
-struct SliceLayout {
-  glm::dvec3 axis;  // slabs lie across it; it runs with the light
-  double slabThickness;
-  glm::dvec4 plane;   // plane coordinate = dot(p, xyz) + w
-  glm::dvec4 lightU;  // light-buffer coordinates likewise
-  glm::dvec4 lightV;
-  glm::dvec3 texelOrigin;  // point on the light ray (u, v) at plane coordinate c:
-  glm::dvec3 texelU;       //   origin + u U + v V + c C
-  glm::dvec3 texelV;
-  glm::dvec3 texelC;
-  double lightPath;  // length of a light ray inside a slab
-};
-// `box` maps the unit box to positions relative to the eye, `view` is the direction from the eye
-// to the box (half-angle only).
-SliceLayout layoutSlices(const glm::dmat4x3& box, const glm::dvec3& toLight, const glm::dvec3& view,
-                         const SliceQuality& quality);
 
 struct PixelRect {
   uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;

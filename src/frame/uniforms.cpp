@@ -230,7 +230,7 @@ void fillVolume(const VolumeState& volume, const PlannedVolume& planned, const g
   out.texelB = glm::vec4(glm::vec3(inverse * own.texelV), static_cast<float>(quality.sliceCount));
   out.texelC = glm::vec4(glm::vec3(inverse * own.texelC), static_cast<float>(maxStep));
   out.middle = glm::vec4(glm::vec3(box * glm::dvec4(0.5, 0.5, 0.5, 1.0)),
-                         static_cast<float>(layout.slabThickness * MARCH_STEP));
+                         static_cast<float>(layout.eyeStep * MARCH_STEP));
   if (quality.transport) {
     const TransportShape shape = transportShape(volume, quality.transportCells);
     const GridPlace grid = placeGrid(shape, quality.cellRoom);

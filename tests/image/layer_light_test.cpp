@@ -19,7 +19,6 @@ constexpr double WIDTH = 40e3;  // m; light that enters at its edges is far from
 constexpr int VOXELS = 8;
 constexpr int PIXELS = 4;
 constexpr double G = 0.85;
-constexpr double SUN = 63 * DEGREE;
 
 struct View {
   double zenith;
@@ -29,16 +28,21 @@ constexpr View VIEWS[] = {{0, 0}, {30 * DEGREE, 90 * DEGREE}, {60 * DEGREE, 150 
 
 class Layer : public ::testing::Test {
  protected:
-  Layer() : scene_(PIXELS), medium_(scene_.henyeyGreenstein(G)) {
-    scene_.setLight({-std::sin(SUN), std::cos(SUN), 0});
-    Quality quality;
-    quality.scattering = WLK_SCATTERING_ALL_ORDERS;
-    quality.slices = quality.lightSize = 0;  // of the level
-    scene_.setQuality(quality);
-  }
+  Layer() : scene_(PIXELS), medium_(scene_.henyeyGreenstein(G)) {}
   ~Layer() override { EXPECT_TRUE(scene_.messages().empty()) << scene_.messages().front(); }
 
-  // Largest |radiance over the truth's - 1| of all views.
+  void light(double sun_deg, uint32_t scattering) {
+    sun_ = sun_deg * DEGREE;
+    scene_.setLight({-std::sin(sun_), std::cos(sun_), 0});
+    Quality quality;
+    quality.scattering = scattering;
+    quality.slices = quality.lightSize = 0;  // of the level
+    scene_.setQuality(quality);
+    single_ = scattering == WLK_SCATTERING_SINGLE;
+  }
+
+  // Largest |radiance over the truth's - 1| of all views, of light that comes back alone where
+  // scattered once: what is let through then is too little to have a figure.
   double worst(double tau, double distance) {
     VoxelField field = cubeField(VOXELS, std::vector<float>(size_t{VOXELS} * VOXELS * VOXELS, 1.0F),
                                  tau / HEIGHT, HEIGHT, {0, 0, 0});
@@ -49,6 +53,9 @@ class Layer : public ::testing::Test {
     const WlkVolume volume = scene_.addVolume(field, medium_);
     double most = 0;
     for (const double side : {1.0, -1.0}) {
+      if (single_ && side < 0) {
+        continue;
+      }
       for (const View& view : VIEWS) {
         const double sine = std::sin(view.zenith);
         const Point travel{sine * std::cos(view.azimuth), side * std::cos(view.zenith),
@@ -60,7 +67,9 @@ class Layer : public ::testing::Test {
         camera.tangent = 3.5 / distance;  // m of the layer, on either side
         scene_.setCamera(camera);
         const double seen = mean(scene_.render().red());
-        const double truth = solver_.radiance(tau, std::cos(SUN), {travel[1], view.azimuth}).total;
+        const rt::SlabRadiance all =
+            solver_.radiance(tau, std::cos(sun_), {travel[1], view.azimuth});
+        const double truth = single_ ? all.single : all.total;
         std::printf("%g, %g m, %+.0f: %+.1f %%\n", tau, distance, side * view.zenith / DEGREE,
                     100 * (seen / truth - 1));
         most = std::max(most, std::abs(seen / truth - 1));
@@ -72,12 +81,15 @@ class Layer : public ::testing::Test {
 
   SlicingScene scene_;
   WlkMedium medium_;
+  double sun_ = 0;
+  bool single_ = false;
   rt::SlabSolver solver_{rt::henyeyGreensteinSlabPhase(G), 1};
 };
 
 // At HIGH; without harmonics of degree 4, thin ones are 16 % too dark along the normal. Bounds are
 // half as much again as was measured.
 TEST_F(Layer, SeenFromAfarIsThatOfDiscreteOrdinates) {
+  light(63, WLK_SCATTERING_ALL_ORDERS);
   EXPECT_LT(worst(0.7, 100e3), 0.06);
   EXPECT_LT(worst(7, 100e3), 0.03);
   EXPECT_LT(worst(32, 100e3), 0.05);
@@ -85,7 +97,18 @@ TEST_F(Layer, SeenFromAfarIsThatOfDiscreteOrdinates) {
 
 // An eye close to cells that are wide sees each ray's direction, not that of the cells' middles.
 TEST_F(Layer, SeenFromNearbyIsTheSame) {
+  light(63, WLK_SCATTERING_ALL_ORDERS);
   EXPECT_LT(worst(2, 2e3), 0.05);
+}
+
+// Slabs parallel to the layer, whose faces have no part of the optical depth smeared over them.
+// Slabs across the light lose up to 99 % of what is scattered once.
+TEST_F(Layer, OfALowSunTakesUpLightAtItsFace) {
+  light(78, WLK_SCATTERING_SINGLE);
+  EXPECT_LT(worst(3, 20e3), 0.001);
+  EXPECT_LT(worst(50, 20e3), 0.001);
+  light(78, WLK_SCATTERING_ALL_ORDERS);
+  EXPECT_LT(worst(50, 20e3), 0.05);
 }
 
 }  // namespace
