@@ -79,13 +79,8 @@ class Life {
 };
 
 WlkResult Life::create() {
-  auto device = make<WlkVulkanDeviceInfo>();
+  auto device = describeDevice(engine_.spy);
   device.getInstanceProcAddr = FaultLayer::getInstanceProcAddr();
-  device.instance = engine_.spy.instance;
-  device.physicalDevice = engine_.spy.physical;
-  device.device = engine_.spy.device;
-  device.apiVersion = VK_API_VERSION_1_3;
-  device.queueFamilyIndex = engine_.spy.family;
   auto info = make<WlkContextInfo>();
   info.next = &device;
   info.allocator = memory.callbacks();
@@ -144,16 +139,7 @@ WlkResult Life::begin() {
 
 // A frame's commands; those of a failed call are thrown away with their command buffer.
 WlkResult Life::record(bool view) {
-  auto color = make<WlkVulkanImage>();
-  color.image = engine_.target.handle;
-  color.format = engine_.target.format;
-  color.width = WIDTH;
-  color.height = HEIGHT;
-  color.depth = 1;
-  color.before.layout = color.after.layout = VK_IMAGE_LAYOUT_GENERAL;
-  color.before.stages = color.after.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-  color.before.access = color.after.access =
-      VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+  const WlkVulkanImage color = EngineScene::describe(engine_.target, VK_IMAGE_LAYOUT_GENERAL);
   auto targets = make<WlkVulkanViewTargets>();
   targets.color = &color;
   WlkResult result = WLK_SUCCESS;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 // WlkContextInfo::deviceMemoryLimit: what would exceed it is refused before the driver is asked,
 // and nothing is lost; with the limit raised to what is used, everything fits.
-#include <welkin/welkin_vulkan.h>
-
 #include "stress/abuse.hpp"
+#include "support/engine_scene.hpp"
 #include "support/fault_layer.hpp"
-#include "support/spy_device.hpp"
 
 namespace welkin::test {
 namespace {
@@ -16,13 +14,8 @@ class MemoryLimit : public ::testing::Test {
  protected:
   // A context with one medium whose device memory is limited.
   WlkContext makeContext(uint64_t limit) {
-    auto device = make<WlkVulkanDeviceInfo>();
+    auto device = describeDevice(spy);
     device.getInstanceProcAddr = FaultLayer::getInstanceProcAddr();
-    device.instance = spy.instance;
-    device.physicalDevice = spy.physical;
-    device.device = spy.device;
-    device.apiVersion = VK_API_VERSION_1_3;
-    device.queueFamilyIndex = spy.family;
     auto info = make<WlkContextInfo>();
     info.next = &device;
     info.deviceMemoryLimit = limit;

@@ -19,16 +19,6 @@ SceneOptions small() {
   return options;
 }
 
-WlkVulkanDeviceInfo describe(const SpyDevice& spy) {
-  auto info = make<WlkVulkanDeviceInfo>();
-  info.getInstanceProcAddr = SpyDevice::getInstanceProcAddr();
-  info.instance = spy.instance;
-  info.physicalDevice = spy.physical;
-  info.device = spy.device;
-  info.apiVersion = VK_API_VERSION_1_3;
-  return info;
-}
-
 // vkGetInstanceProcAddr of a loader that lacks one function.
 const char* hidden = "";
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL hideDeviceProc(VkDevice device, const char* name) {
@@ -107,7 +97,7 @@ TEST(EngineDeviceAbuse, EveryFieldOfTheDeviceIsChecked) {
        [](D& d) { d.apiVersion = VK_MAKE_API_VERSION(0, 1, 2, 198); }},
       {"queueFamilyIndex", WLK_ERROR_INVALID_ARGUMENT, [](D& d) { d.queueFamilyIndex = 99; }}};
   for (const Case& test : cases) {
-    WlkVulkanDeviceInfo device = describe(spy);
+    WlkVulkanDeviceInfo device = describeDevice(spy);
     test.spoil(device);
     auto info = make<WlkContextInfo>();
     info.next = &device;
@@ -120,7 +110,7 @@ TEST(EngineDeviceAbuse, EveryFieldOfTheDeviceIsChecked) {
     WlkVulkanDeviceInfo known;
     unsigned char tail[8];
   };
-  Longer device{describe(spy), {}};
+  Longer device{describeDevice(spy), {}};
   auto info = make<WlkContextInfo>();
   info.next = &device;
   WlkContext context = nullptr;
@@ -139,7 +129,7 @@ TEST(EngineDeviceAbuse, AMissingFunctionIsNamedAndNothingLeaks) {
   const SpyDevice spy;
   std::vector<std::string> names;
   {
-    WlkVulkanDeviceInfo device = describe(spy);
+    WlkVulkanDeviceInfo device = describeDevice(spy);
     auto info = make<WlkContextInfo>();
     info.next = &device;
     WlkContext context = nullptr;
@@ -153,7 +143,7 @@ TEST(EngineDeviceAbuse, AMissingFunctionIsNamedAndNothingLeaks) {
   for (const std::string& name : names) {
     CountingAllocator memory;
     hidden = name.c_str();
-    WlkVulkanDeviceInfo device = describe(spy);
+    WlkVulkanDeviceInfo device = describeDevice(spy);
     device.getInstanceProcAddr = &hideInstanceProc;
     auto info = make<WlkContextInfo>();
     info.next = &device;
@@ -217,7 +207,7 @@ TEST_F(EngineAbuse, RecordingNeedsAFrameACommandBufferAndAPreparedView) {
                "context");
 
   // In a context that never began a frame, and in a headless one.
-  auto device = describe(scene.device());
+  auto device = describeDevice(scene.device());
   auto info = make<WlkContextInfo>();
   info.next = &device;
   WlkContext other = nullptr;
@@ -362,7 +352,7 @@ TEST_F(EngineAbuse, GarbageInTheEnginesVolumeImageGivesAFinitePicture) {
 
 TEST(EngineDeviceAbuse, BlendNeedsTheFeatureThatTheEngineNames) {
   const SpyDevice spy;
-  WlkVulkanDeviceInfo device = describe(spy);
+  WlkVulkanDeviceInfo device = describeDevice(spy);
   device.dualSrcBlendEnabled = 0;
   auto info = make<WlkContextInfo>();
   info.next = &device;

@@ -13,7 +13,7 @@ VkFormat formatOf(uint32_t targetFormat) {
 
 }  // namespace
 
-EngineScene::EngineScene(const SceneOptions& options) : SceneBuilder(options) {
+WlkVulkanDeviceInfo describeDevice(const SpyDevice& spy) {
   auto info = make<WlkVulkanDeviceInfo>();
   info.getInstanceProcAddr = SpyDevice::getInstanceProcAddr();
   info.instance = spy.instance;
@@ -21,6 +21,11 @@ EngineScene::EngineScene(const SceneOptions& options) : SceneBuilder(options) {
   info.device = spy.device;
   info.apiVersion = VK_API_VERSION_1_3;
   info.queueFamilyIndex = spy.family;
+  return info;
+}
+
+EngineScene::EngineScene(const SceneOptions& options) : SceneBuilder(options) {
+  auto info = describeDevice(spy);
   info.dualSrcBlendEnabled = 1;
   create(&info);
   target_.emplace(spy, formatOf(options.targetFormat), VkExtent3D{options.width, options.height, 1},
@@ -36,7 +41,7 @@ EngineScene::~EngineScene() {
   context = nullptr;
 }
 
-WlkVulkanImage EngineScene::describe(const SpyImage& image, VkImageLayout layout) const {
+WlkVulkanImage EngineScene::describe(const SpyImage& image, VkImageLayout layout) {
   auto described = make<WlkVulkanImage>();
   described.image = image.handle;
   described.format = image.format;

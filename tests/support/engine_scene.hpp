@@ -18,6 +18,9 @@ struct FrameCounts {
   VulkanCounts view;    // by wlkVulkanCmdRenderView
 };
 
+// What a context is made from on a spied device.
+WlkVulkanDeviceInfo describeDevice(const SpyDevice& spy);
+
 // The spied device comes first in construction and last in destruction.
 struct SpiedEngine {
   SpyDevice spy;
@@ -40,7 +43,7 @@ class EngineScene : private SpiedEngine, public SceneBuilder {
   // More targets for the frames to come.
   std::function<void(WlkVulkanViewTargets&)> addTargets;
 
-  WlkVulkanImage describe(const SpyImage& image, VkImageLayout layout) const;
+  static WlkVulkanImage describe(const SpyImage& image, VkImageLayout layout);
   // What the frame's wlkVulkanCmdRenderView gets; `color` must live for the call.
   WlkVulkanViewTargets targets(const WlkVulkanImage& color) const;
   // wlkBeginFrame, update and view in one command buffer, submitted and waited for.
