@@ -45,7 +45,7 @@ std::vector<char> keyOf(const WlkContext_T& c, const VolumeState& volume, int th
     key.add(c.air.sky);
     key.add(c.air.absorber);
     key.add(c.air.fog);
-    key.add(c.air.fogPhase.get());
+    key.add(reinterpret_cast<uintptr_t>(c.air.fogPhase.get()));
     key.add(c.air.lights);
     key.add(c.air.lightCount);
     key.add(c.shownFieldVersion);
@@ -63,7 +63,7 @@ std::vector<AmbientSample> skySamples(const WlkContext_T& c, const PlanetFrame& 
     maps.emplace_back(c.air, place, l, c.shownField.get());
   }
   std::vector<AmbientSample> samples;
-  samples.reserve(MAP_SIZE * MAP_SIZE);
+  samples.reserve(size_t{MAP_SIZE} * MAP_SIZE);
   const double halfWidth = 1.0 / MAP_SIZE;
   for (uint32_t j = 0; j < MAP_SIZE; ++j) {
     for (uint32_t i = 0; i < MAP_SIZE; ++i) {

@@ -134,7 +134,7 @@ void fillSlots(const Edges& size, const WlkVolumeBricks& b, const BrickContents&
     for (uint32_t z = 0; z < SLOT_EDGE; ++z) {
       for (uint32_t y = 0; y < SLOT_EDGE; ++y) {
         uint16_t* out = atlas + (SLOT_EDGE * corner[2] + z) * plane +
-                        (SLOT_EDGE * corner[1] + y) * width + SLOT_EDGE * corner[0];
+                        (SLOT_EDGE * corner[1] + y) * width + uint64_t{SLOT_EDGE} * corner[0];
         for (uint32_t x = 0; x < SLOT_EDGE; ++x) {
           const Edges v{at[x][0], at[y][1], at[z][2]};
           const uint32_t from =

@@ -121,7 +121,7 @@ AmbientFine ambientFine(const TransportMedia& media, std::span<const AmbientSamp
         sum += sample.solidAngle * (sample.radiance - mean) *
                glm::mix(kernel[node], kernel[node + 1], part);
       }
-      fine[static_cast<size_t>(row * interface_::FINE_AZIMUTHS + column)] =
+      fine[static_cast<size_t>(row) * interface_::FINE_AZIMUTHS + static_cast<size_t>(column)] =
           glm::vec4(glm::vec3(sum), 0);
     }
   }

@@ -61,7 +61,7 @@ bool keptInStore(LightStore& store, const VolumeState& volume, const SliceQualit
   now.size = quality.lightSize;
   now.version = volume.version;
   now.filled = true;
-  const bool kept = std::memcmp(&now, &store.key, sizeof now) == 0;
+  const bool kept = now == store.key;
   store.key = now;
   return kept;
 }

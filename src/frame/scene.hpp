@@ -92,13 +92,14 @@ struct LightStoreShape {
   bool operator==(const LightStoreShape&) const = default;
 };
 
-// What a store's light was computed from, compared byte by byte.
+// What a store's light was computed from.
 struct LightStoreKey {
-  std::array<float, 4 * (6 + DEPTH_NODES)> rows{};
+  std::array<float, 4 * (6 + size_t{DEPTH_NODES})> rows{};
   uint32_t slices = 0;
   uint32_t size = 0;
   uint64_t version = 0;
   uint64_t filled = 0;  // 0: nothing was computed yet
+  bool operator==(const LightStoreKey&) const = default;
 };
 
 // A volume's light at all slabs, for views of one shape.

@@ -10,7 +10,7 @@
 namespace welkin {
 
 struct TransportLayer {
-  static constexpr size_t RINGS = 2 * interface_::LAYER_RINGS;  // of both sides
+  static constexpr size_t RINGS = 2 * size_t{interface_::LAYER_RINGS};  // of both sides
   static constexpr size_t TURNS = interface_::LAYER_TURNS;
   static constexpr size_t COUNT = RINGS * TURNS;
   // World to the layer's frame, rows: towards the light's azimuth, across, the normal.

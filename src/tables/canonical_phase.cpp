@@ -22,6 +22,7 @@ constexpr double NODES_PER_SPREAD = 1024;  // 0.5 % at the glory, against four t
 
 CanonicalPhase canonicalPhase() {
   std::vector<double> angle;
+  angle.reserve(801);
   for (int i = 0; i < 100; ++i) {
     angle.push_back(EDGE * RADIANS * i / 100);
   }

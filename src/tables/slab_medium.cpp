@@ -138,9 +138,12 @@ SlabMoments SlabMedium::zeros(int modes) const {
 }
 
 std::vector<double>& SlabMedium::part(SlabMoments& moments, SlabField field, int m) const {
-  return field == SlabField::Intensity ? moments.intensity[static_cast<size_t>(m)]
-         : field == SlabField::Shift   ? moments.shift[static_cast<size_t>(m + moments.modes)]
-                                       : moments.spread[static_cast<size_t>(m)];
+  if (field == SlabField::Shift) {
+    const int turn = m + moments.modes;
+    return moments.shift[static_cast<size_t>(turn)];
+  }
+  return (field == SlabField::Intensity ? moments.intensity
+                                        : moments.spread)[static_cast<size_t>(m)];
 }
 
 const std::vector<double>& SlabMedium::part(const SlabMoments& moments, SlabField field,

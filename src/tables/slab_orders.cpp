@@ -100,9 +100,10 @@ SlabLight SlabOrders::light(size_t set, const SlabDirections& directions,
   light.directions_ = count;
   light.depths_ = depths.size();
   const size_t size = 2 * count * depths.size() * SLAB_LANES;
-  light.intensity_.assign(static_cast<size_t>(from.modes + 1), std::vector<double>(size));
+  const auto modes = static_cast<size_t>(from.modes);
+  light.intensity_.assign(modes + 1, std::vector<double>(size));
   light.spread_ = light.intensity_;
-  light.shift_.assign(static_cast<size_t>(2 * from.modes + 1), std::vector<double>(size));
+  light.shift_.assign(2 * modes + 1, std::vector<double>(size));
   // The last stretch of each ray, from a node to the depth.
   struct Last {
     std::array<size_t, 3> node;  // two of the stretch, the cell's third
@@ -134,10 +135,11 @@ SlabLight SlabOrders::light(size_t set, const SlabDirections& directions,
     }
   }
   medium_.sweep(from, directions, [&](const SlabModeRays& mode) {
+    const int turn = mode.field == SlabField::Shift ? mode.m + from.modes : mode.m;
     std::vector<double>& to =
-        mode.field == SlabField::Intensity ? light.intensity_[static_cast<size_t>(mode.m)]
-        : mode.field == SlabField::Shift   ? light.shift_[static_cast<size_t>(mode.m + from.modes)]
-                                           : light.spread_[static_cast<size_t>(mode.m)];
+        (mode.field == SlabField::Intensity ? light.intensity_
+         : mode.field == SlabField::Shift   ? light.shift_
+                                            : light.spread_)[static_cast<size_t>(turn)];
     for (size_t i = 0; i < last.size(); ++i) {
       const size_t ray = i / depths.size();
       const double mu = directions.mu[ray % count];

@@ -47,6 +47,7 @@ std::vector<double> slabDepths(double thickness, double fineness) {
   }
   const double scale = half / edges.back();
   std::vector<double> cells;
+  cells.reserve(2 * edges.size());
   for (const double edge : edges) {
     cells.push_back(edge * scale);
   }
