@@ -5,7 +5,8 @@
 lint.py                 the text rules: who includes whom, literals, equations, line shape
 lint.py --format        and clang-format on every C and C++ file
 lint.py --tidy BUILD    and clang-tidy on src/ by BUILD/compile_commands.json; with --tidy-all also
-                        on samples/ and tests/ (about 6 s of CPU per file, too slow for every run)
+                        on samples/ and tests/ (about 6 s of CPU per file, too slow for every run);
+                        with --since REVISION only on the .cpp files that differ from it
 lint.py --root TREE     another tree (the self-test's)
 """
 import argparse
@@ -141,6 +142,13 @@ def equation_rows(root):
     return {key for row in rows for key in cited_keys(row)}
 
 
+def changed(root, revision, folders):
+    """Source files below the folders that differ from the revision, as committed or not."""
+    names = subprocess.run(["git", "-C", str(root), "diff", "--name-only", revision],
+                           capture_output=True, text=True, check=True).stdout.split()
+    return tuple(name for name in names if name.startswith(folders) and name.endswith(".cpp"))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -149,6 +157,7 @@ def main():
     parser.add_argument("--format", action="store_true")
     parser.add_argument("--tidy", type=pathlib.Path, metavar="BUILD")
     parser.add_argument("--tidy-all", action="store_true")
+    parser.add_argument("--since", metavar="REVISION")
     arguments = parser.parse_args()
     lint = Lint(arguments.root.resolve())
     lint.run_text_rules()
@@ -156,6 +165,8 @@ def main():
         lint.run_format()
     if arguments.tidy:
         folders = ("src/", "samples/", "tests/") if arguments.tidy_all else ("src/",)
+        if arguments.since:
+            folders = changed(lint.root, arguments.since, folders)
         lint.run_tidy(arguments.tidy.resolve(), folders)
     for line in lint.warnings:
         print("warning:", line)
