@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "cloud.hpp"
+#include "common/apply.hpp"
 
 namespace {
 
@@ -50,39 +51,57 @@ WlkVulkanImage imported(const Image& image, const ImageState& before, const Imag
 
 }  // namespace
 
-Atmosphere::Atmosphere(const Gpu& gpu, VkExtent2D extent, uint32_t composite, uint32_t quality,
-                       uint32_t framesInFlight)
-    : viewInfo_(make<WlkViewInfo>()), context_(makeContext(gpu, framesInFlight)) {
-  createScene();
-  createClouds();
+Atmosphere::Atmosphere(const Gpu& gpu, VkExtent2D extent, uint32_t composite,
+                       const Settings& settings, uint32_t framesInFlight, const host::Scene* scene)
+    : viewInfo_(make<WlkViewInfo>()),
+      quality_(make<WlkQuality>()),
+      context_(makeContext(gpu, framesInFlight)) {
+  if (scene != nullptr) {
+    quality_ = scene->quality;
+    hour_ = settings.hour;  // the scene's lights stay until the user turns the clock
+    lit_ = !scene->lights.empty();
+    if (lit_) {
+      const float* direction = scene->lights[0].direction;
+      toSun_ = {direction[0], direction[1], direction[2]};
+    }
+    host::applyWorld(context_, *scene);
+    host::applyVolumes(context_, *scene, [](const std::string&) {});
+  } else {
+    createScene();
+    createClouds(settings);
+  }
   viewInfo_.width = extent.width;
   viewInfo_.height = extent.height;
   viewInfo_.composite = composite;
   viewInfo_.targetFormat = WLK_TARGET_RGBA16_FLOAT;
   view_ = welkin::View(context_, viewInfo_);
-  WlkQuality level = make<WlkQuality>();
-  level.level = quality;
-  check(wlkSetQuality(context_, view_, &level));
+  applyQuality(settings);
   // Everything exists: make pipelines and buffers now, none while recording.
   check(wlkPrepare(context_));
 }
 
-// Air and a ground fog; the defaults are the Earth's.
+// Air and a ground fog, whose light falls on the clouds, too; the defaults are the Earth's.
 void Atmosphere::createScene() {
   const WlkSky sky = make<WlkSky>();
   check(wlkSetSky(context_, &sky));
+  WlkAmbient ambient = make<WlkAmbient>();
+  ambient.mode = WLK_AMBIENT_AUTOMATIC;
+  check(wlkSetAmbient(context_, &ambient));
   WlkFog fog = make<WlkFog>();
   fog.extinction = 1.0e-4f;
   fog.scaleHeight = 80.0f;
   check(wlkSetFog(context_, &fog));
 }
 
-void Atmosphere::createClouds() {
-  droplets_ = welkin::Medium(context_, make<WlkMediumInfo>());
+void Atmosphere::createClouds(const Settings& settings) {
+  clouds_ = welkin::Volume();  // before its medium
+  WlkMediumInfo droplets = make<WlkMediumInfo>();
+  droplets.diameter_um = settings.dropletDiameter_um;
+  droplets_ = welkin::Medium(context_, droplets);
   const CloudField cloud = makeCloudField();
   WlkVolumeField field{};
   field.medium = droplets_;
-  field.extinctionScale = 0.03f;  // 1/m at density 1
+  field.extinctionScale = settings.cloudExtinction;
   WlkVolumeInfo info = make<WlkVolumeInfo>();
   // A box of 7 x 1.5 x 7 km, its base 900 m above the ground in front of the camera.
   const std::array<double, 12> worldFromVolume{7000, 0,   0, -3500, 0,    1500,
@@ -97,6 +116,45 @@ void Atmosphere::createClouds() {
   upload.data = cloud.values.data();
   upload.dataSize = cloud.values.size() * sizeof(float);
   check(wlkUploadVolume(context_, clouds_, &upload));
+}
+
+void Atmosphere::setClouds(const Settings& settings) {
+  createClouds(settings);
+  check(wlkPrepare(context_));
+}
+
+void Atmosphere::applyQuality(const Settings& settings) const {
+  WlkQuality quality = quality_;
+  quality.level = settings.quality;
+  if (settings.timeBudget_ms > 0.0f) {
+    quality.control = WLK_CONTROL_TIME;
+    quality.timeBudget_ms = settings.timeBudget_ms;
+    quality.sliceCount = quality.batchSize = quality.lightBufferSize = 0;  // the governor's
+  }
+  check(wlkSetQuality(context_, view_, &quality));
+}
+
+void Atmosphere::setQuality(const Settings& settings) {
+  applyQuality(settings);
+  check(wlkPrepare(context_));
+}
+
+FrameReport Atmosphere::report() const {
+  FrameReport report;
+  report.frame = make<WlkFrameStats>();
+  uint32_t count = 0;
+  if (check(wlkGetFrameStats(context_, view_, &report.frame, &count, nullptr)) == WLK_NOT_READY) {
+    return report;
+  }
+  report.passes.resize(count);
+  check(wlkGetFrameStats(context_, view_, &report.frame, &count, report.passes.data()));
+  report.quality = make<WlkQualityState>();
+  check(wlkGetQualityState(context_, view_, &report.quality));
+  WlkErrorEstimate estimate = make<WlkErrorEstimate>();
+  check(wlkGetErrorEstimate(context_, view_, &estimate));
+  report.relativeError = estimate.relativeError;
+  report.ready = true;
+  return report;
 }
 
 void Atmosphere::resize(VkExtent2D extent) {
@@ -116,6 +174,11 @@ void Atmosphere::forget(const Targets& targets) {
 }
 
 void Atmosphere::setHour(double hour) {
+  if (hour == hour_) {
+    return;
+  }
+  hour_ = hour;
+  lit_ = true;
   const double latitude = 40.0 * std::numbers::pi / 180.0;
   const double angle = (hour - 12.0) * std::numbers::pi / 12.0;  // past noon
   toSun_ = {-std::sin(angle), std::cos(latitude) * std::cos(angle),
@@ -130,7 +193,9 @@ void Atmosphere::setHour(double hour) {
 Lighting Atmosphere::lightingAt(const glm::dvec3& position) {
   Lighting lighting;
   lighting.toSun = toSun_;
-  check(wlkEvalLight(context_, 0, &position.x, &lighting.sunIrradiance.x));
+  if (lit_) {
+    check(wlkEvalLight(context_, 0, &position.x, &lighting.sunIrradiance.x));
+  }
   // The sky's irradiance from a few directions: pi times their mean radiance. Good enough here.
   constexpr std::array<std::array<double, 3>, 5> DIRECTIONS{
       {{0, 1, 0}, {0.8, 0.6, 0}, {-0.8, 0.6, 0}, {0, 0.6, 0.8}, {0, 0.6, -0.8}}};

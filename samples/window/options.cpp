@@ -36,18 +36,24 @@ Options parseOptions(int count, char** arguments) {
   CLI::App app{
       "A small Vulkan engine that shows Welkin's atmosphere.\n"
       "W A S D Q E move (shift: faster), drag turns, left and right change the time of "
-      "day, escape quits."};
+      "day, F1 shows or hides the panel, escape quits."};
   app.add_option("--size", size, "Pixels of the window, WIDTHxHEIGHT")
       ->check([&](const std::string& text) { return readSize(text, options); });
   auto* frames = app.add_option("--frames", options.frames, "Frames to show, then quit")
                      ->check(CLI::PositiveNumber);
   app.add_option("--composite", options.composite, "How Welkin joins the picture")
       ->transform(CLI::CheckedTransformer(composites, CLI::ignore_case));
-  app.add_option("--quality", options.quality, "Welkin's quality level")
+  app.add_option("--quality", options.settings.quality, "Welkin's quality level")
       ->transform(CLI::CheckedTransformer(qualities, CLI::ignore_case));
-  app.add_option("--hour", options.hour, "Local solar time")->check(CLI::Range(0.0, 24.0));
+  app.add_option("--hour", options.settings.hour, "Local solar time")->check(CLI::Range(0.0, 24.0));
   app.add_option("--screenshot", options.screenshot, "PNG file for the last of --frames")
       ->needs(frames);
+  app.add_option("--budget", options.settings.timeBudget_ms,
+                 "Milliseconds of a frame that Welkin keeps to")
+      ->check(CLI::Range(0.1, 1000.0));
+  app.add_option("--scene", options.scene, "Air, lights, media and volumes of a scene file")
+      ->check(CLI::ExistingFile);
+  app.add_flag("--panel", options.panel, "Show the control panel with --frames, too");
   app.add_flag("--validate", options.validate,
                "Load the validation layer; exit with 1 if it reports anything");
   try {

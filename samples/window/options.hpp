@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <welkin/welkin.h>
-
 #include <string>
+
+#include "settings.hpp"
 
 struct Options {
   uint32_t width = 1280;
   uint32_t height = 720;
   uint64_t frames = 0;  // 0: until the window is closed
   uint32_t composite = WLK_COMPOSITE_COMPUTE;
-  uint32_t quality = WLK_QUALITY_MEDIUM;
-  double hour = 9.0;  // local solar time
+  Settings settings;  // as the engine starts
+  std::string scene;  // a scene file instead of the sample's own air and clouds
   std::string screenshot;
+  bool panel = false;  // also where a number of frames is asked for
   bool validate = false;
 };
 

@@ -21,6 +21,7 @@ class Swapchain {
   bool present(uint32_t index) const;
 
   VkExtent2D extent() const { return extent_; }
+  uint32_t imageCount() const { return static_cast<uint32_t>(images_.size()); }
   VkFormat format() const { return format_; }
   VkImage image(uint32_t index) const { return images_[index]; }
   VkImageView view(uint32_t index) const { return views_[index]; }

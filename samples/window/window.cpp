@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -53,11 +54,18 @@ VkExtent2D Window::extent() const {
 }
 
 bool Window::pressed(int key) const {
-  return glfwGetKey(window_, key) == GLFW_PRESS;
+  return keys_ && glfwGetKey(window_, key) == GLFW_PRESS;
 }
 
-void Window::poll(Camera& camera, double& hour) {
+bool Window::panelToggled() {
+  const bool before = toggleDown_;
+  toggleDown_ = glfwGetKey(window_, GLFW_KEY_F1) == GLFW_PRESS;
+  return toggleDown_ && !before;
+}
+
+void Window::poll(Camera& camera, double& hour, const Captured& captured) {
   glfwPollEvents();
+  keys_ = !captured.keys;
   if (pressed(GLFW_KEY_ESCAPE)) {
     glfwSetWindowShouldClose(window_, GLFW_TRUE);
   }
@@ -68,7 +76,10 @@ void Window::poll(Camera& camera, double& hour) {
   double x = 0.0;
   double y = 0.0;
   glfwGetCursorPos(window_, &x, &y);
-  if (glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS) {
+  // Not with the press itself, of which the panel has not heard yet.
+  const bool dragging =
+      std::exchange(mouseDown_, glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS);
+  if (dragging && mouseDown_ && !captured.mouse) {
     camera.yaw -= (x - mouseX_) * RADIANS_PER_PIXEL;
     camera.pitch -= (y - mouseY_) * RADIANS_PER_PIXEL;
     camera.pitch = std::clamp(camera.pitch, -STEEPEST, STEEPEST);

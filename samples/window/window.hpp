@@ -21,8 +21,15 @@ class Window {
   bool closed() const;
   // Pixels; waits while the window is minimised.
   VkExtent2D extent() const;
+  // Whose the input is: the panel's where it has the pointer or a text field.
+  struct Captured {
+    bool mouse = false;
+    bool keys = false;
+  };
   // Moves the camera and the clock (hours) by the input since the last call.
-  void poll(Camera& camera, double& hour);
+  void poll(Camera& camera, double& hour, const Captured& captured);
+  // Whether F1 went down since the last call.
+  bool panelToggled();
   void setTitle(const std::string& title);
 
  private:
@@ -31,4 +38,7 @@ class Window {
   double time_ = 0.0;
   double mouseX_ = 0.0;
   double mouseY_ = 0.0;
+  bool keys_ = true;  // the world has the keyboard
+  bool mouseDown_ = false;
+  bool toggleDown_ = false;
 };

@@ -32,12 +32,12 @@ int run(const std::string& arguments) {
 }
 
 // RGB bytes of a screenshot after a few frames, under validation.
-std::vector<unsigned char> screenshot(const std::string& mode) {
+std::vector<unsigned char> screenshot(const std::string& mode, const std::string& more = "") {
   const std::string file = testing::TempDir() + "welkin_window_" + mode + ".png";
   std::remove(file.c_str());
   const std::string size = std::to_string(WIDTH) + "x" + std::to_string(HEIGHT);
   EXPECT_EQ(run("--validate --quality low --frames 4 --composite " + mode + " --size " + size +
-                " --screenshot " + file),
+                " --screenshot " + file + " " + more),
             0)
       << mode;
   int width = 0;
@@ -86,12 +86,61 @@ TEST(WindowSample, EveryCompositeModeShowsTheSamePictureWithoutAMessage) {
   }
 }
 
+TEST(WindowSample, ThePanelLiesOverThePictureAndChangesNothingBesides) {
+  if (std::string(WELKIN_WINDOW).empty()) {
+    GTEST_SKIP() << "no window sample or no xvfb-run in this build";
+  }
+  // The panel is 380 pixels wide.
+  const auto wide = [](const std::string& more) {
+    const std::string file = testing::TempDir() + "welkin_window_wide.png";
+    EXPECT_EQ(
+        run("--validate --quality low --frames 4 --size 640x360 --screenshot " + file + " " + more),
+        0);
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    unsigned char* data = stbi_load(file.c_str(), &width, &height, &channels, 3);
+    std::vector<unsigned char> pixels;
+    if (data != nullptr) {
+      pixels.assign(data, data + size_t{3} * 640 * 360);
+      stbi_image_free(data);
+    }
+    std::remove(file.c_str());
+    return pixels;
+  };
+  const std::vector<unsigned char> without = wide("");
+  const std::vector<unsigned char> with = wide("--panel");
+  ASSERT_EQ(without.size(), size_t{3} * 640 * 360);
+  ASSERT_EQ(with.size(), without.size());
+  size_t left = 0;
+  size_t right = 0;
+  for (size_t i = 0; i < with.size(); ++i) {
+    const size_t x = i / 3 % 640;
+    left += x < 380 && with[i] != without[i] ? 1u : 0u;
+    right += x >= 390 && with[i] != without[i] ? 1u : 0u;
+  }
+  EXPECT_GT(left, size_t{3} * 300 * 200) << "most of the panel's area";
+  EXPECT_EQ(right, 0u);
+}
+
+TEST(WindowSample, ShowsASceneFileAndKeepsABudget) {
+  if (std::string(WELKIN_WINDOW).empty()) {
+    GTEST_SKIP() << "no window sample or no xvfb-run in this build";
+  }
+  const std::string scene = std::string("--scene ") + WELKIN_SCENES + "/clear-day.json";
+  const std::vector<unsigned char> own = screenshot("compute");
+  const std::vector<unsigned char> loaded = screenshot("compute", scene + " --budget 20");
+  ASSERT_EQ(loaded.size(), own.size());
+  EXPECT_NE(loaded, own);
+}
+
 TEST(WindowSample, BadOptionsAreErrors) {
   if (std::string(WELKIN_WINDOW).empty()) {
     GTEST_SKIP() << "no window sample or no xvfb-run in this build";
   }
   EXPECT_NE(run("--composite sideways 2>/dev/null"), 0);
   EXPECT_NE(run("--size 12 2>/dev/null"), 0);
+  EXPECT_NE(run("--scene missing.json 2>/dev/null"), 0);
   EXPECT_NE(run("--screenshot a.png 2>/dev/null"), 0) << "a screenshot needs --frames";
 }
 
