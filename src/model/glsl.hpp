@@ -32,6 +32,9 @@ inline real sin(real x) {
 inline real cos(real x) {
   return std::cos(x);
 }
+inline real atan(real y, real x) {
+  return std::atan2(y, x);
+}
 inline real abs(real x) {
   return std::fabs(x);
 }

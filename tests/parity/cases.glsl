@@ -114,6 +114,25 @@ ParityResult parityCase(int which, ParityRow r) {
     o.second = vec4(inside.y, canonicalRadiance(r.b.x, r.b.y, r.b.z, o.first.w), weights.x,
                     weights.y);
   }
+  if (which == CASE_CHORD) {
+    ChordLight near = chordStretch(emptyChord(), r.a.x, r.a.y, r.a.z);
+    ChordLight both = chordStretch(near, r.a.y, r.a.w, r.b.x);
+    o.first = vec4(both.transmittance, both.inscatter, chordDepth(r.b.y, r.a.z),
+                   chordLogarithm(r.b.y));
+  }
+  if (which == CASE_TANGENT_SLAB) {
+    TangentSlab slab = tangentSlab(r.a.w, r.b.w, head(r.a), head(r.b), head(r.c));
+    o.first = vec4(slab.thickness, slab.depth, slab.muLight, slab.muView);
+    o.second.x = slab.phi;
+  }
+  if (which == CASE_COLLECTOR) {
+    vec2 centre = vec2(r.a.x, r.a.y);
+    vec2 found = vec2(r.a.z, r.a.w);
+    vec2 next = collectorStep(centre, found, r.b.x);
+    o.first = vec4(next.x, next.y, collectorResidual(centre, found, r.b.x),
+                   footprintLevel(r.b.x, r.b.y));
+    o.second.x = footprintMean(r.b.z, r.b.w);
+  }
   if (which == CASE_SLICES) {
     vec3 axis = halfAngleAxis(head(r.a), head(r.b));
     o.first = vec4(axis, slabOpacity(r.c.x));

@@ -41,6 +41,9 @@ inline real sin(real x) {
 inline real cos(real x) {
   return std::cos(x) + 4096 * ulp();
 }
+inline real atan(real y, real x) {
+  return std::atan2(y, x) * (1 + 4096 * ulp());
+}
 inline real floor(real x) {
   return std::floor(x);
 }

@@ -122,6 +122,41 @@ void compositeRow(Random& random, size_t i, Row& row) {
   row[8] = 65504.0f;
 }
 
+void chordRow(Random& random, size_t i, Row& row) {
+  for (const size_t k : {size_t{0}, size_t{1}, size_t{2}, size_t{3}, size_t{4}}) {
+    row[k] = i == k ? 0.0f : random.logarithmic(1e-6, 60);
+  }
+  row[5] = i == 0 ? 1.0f : random.uniform(0, 0.99);
+}
+
+// Directions apart from the normal, where the azimuth is no matter of rounding.
+void tangentSlabRow(Random& random, Row& row) {
+  std::array<double, 3> normal{};
+  for (const size_t at : {size_t{4}, size_t{8}}) {
+    double cosine = 1;
+    std::array<double, 3> direction{};
+    while (std::abs(cosine) > 0.9) {
+      normal = at == 4 ? random.direction() : normal;
+      direction = random.direction();
+      cosine = normal[0] * direction[0] + normal[1] * direction[1] + normal[2] * direction[2];
+    }
+    put(row, at, direction);
+  }
+  put(row, 0, normal);
+  row[3] = random.logarithmic(1e-3, 1e4);
+  row[7] = row[3] * random.uniform(-0.1, 1.1);
+}
+
+void collectorRow(Random& random, size_t i, Row& row) {
+  for (size_t k = 0; k < 4; ++k) {
+    row[k] = random.uniform(-10, 10);
+  }
+  row[4] = i == 0 ? 0.0f : random.logarithmic(1e-2, 100);
+  row[5] = random.logarithmic(1e-2, 10);
+  row[6] = random.uniform(-10, 10);
+  row[7] = i % 8 == 0 ? 0.0f : random.uniform(0.01, 1);
+}
+
 // Air and fog of cases.glsl, and a ray from altitude with view and light directions as vectors, so
 // that the three cosines belong together.
 void airRow(Random& random, size_t i, Row& row) {
@@ -207,6 +242,15 @@ Row makeRow(int which, Random& random, size_t i) {
       row[5] = random.logarithmic(1e-4, 10);
       row[6] = random.uniform(0.001, 1);
       break;
+    case CASE_CHORD:
+      chordRow(random, i, row);
+      break;
+    case CASE_TANGENT_SLAB:
+      tangentSlabRow(random, row);
+      break;
+    case CASE_COLLECTOR:
+      collectorRow(random, i, row);
+      break;
     case CASE_SLICES:
       slicesRow(random, row);
       break;
@@ -265,7 +309,8 @@ const char* caseName(int which) {
       "Numeric",       "Box",         "Altitude",        "Ground",   "Phase",
       "FogParameters", "FogPhase",    "ScatteringTable", "Slices",   "Composite",
       "Segment",       "FlatSegment", "Light",           "AirDepth", "Air",
-      "Sample",        "Curve",       "Canonical"};
+      "Sample",        "Curve",       "Canonical",       "Chord",    "TangentSlab",
+      "Collector"};
   return NAMES[which];
 }
 
