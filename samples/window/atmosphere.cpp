@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "cloud.hpp"
 #include "common/apply.hpp"
+#include "engine/cloud.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include "camera.hpp"
 #include "common/scene.hpp"
-#include "frames.hpp"
+#include "engine/frames.hpp"
 #include "lighting.hpp"
 #include "panel.hpp"
 #include "targets.hpp"

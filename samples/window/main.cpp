@@ -14,25 +14,27 @@
 #include <utility>
 
 #include "atmosphere.hpp"
-#include "frames.hpp"
+#include "engine/frames.hpp"
+#include "engine/screenshot.hpp"
+#include "engine/swapchain.hpp"
 #include "opaque_pass.hpp"
 #include "options.hpp"
 #include "panel_pass.hpp"
 #include "present_pass.hpp"
 #include "scene_file.hpp"
-#include "screenshot.hpp"
-#include "swapchain.hpp"
 #include "window.hpp"
 
 namespace {
+
+constexpr uint32_t FRAMES_IN_FLIGHT = 2;
 
 class Engine {
  public:
   explicit Engine(const Options& options)
       : options_(options),
         window_(options.width, options.height),
-        gpu_(window_.handle(), options.validate),
-        frames_(gpu_),
+        gpu_(window_.surfaceSource(), options.validate),
+        frames_(gpu_, FRAMES_IN_FLIGHT),
         opaque_(gpu_),
         present_(gpu_, displayFormat(gpu_), options.composite),
         settings_(options.settings),
@@ -68,7 +70,7 @@ class Engine {
   void makeAtmosphere(const host::Scene* scene) {
     // The new one first: if it fails the old one stays.
     std::unique_ptr<Atmosphere> made = std::make_unique<Atmosphere>(
-        gpu_, swapchain_->extent(), options_.composite, settings_, Frames::IN_FLIGHT, scene);
+        gpu_, swapchain_->extent(), options_.composite, settings_, FRAMES_IN_FLIGHT, scene);
     gpu_.waitIdle();
     atmosphere_ = std::move(made);
   }

@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <cstring>
 
-#include "mesh.hpp"
+#include "engine/mesh.hpp"
+#include "engine/pipeline.hpp"
 #include "mesh_frag_spv.h"
 #include "mesh_vert_spv.h"
-#include "pipeline.hpp"
 
 namespace {
 

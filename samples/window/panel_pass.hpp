@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "swapchain.hpp"
+#include "engine/swapchain.hpp"
 
 struct GLFWwindow;
 

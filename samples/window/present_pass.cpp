@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "pipeline.hpp"
+#include "engine/pipeline.hpp"
 #include "present_frag_spv.h"
 #include "present_vert_spv.h"
 

@@ -38,6 +38,22 @@ Window::~Window() {
   glfwTerminate();
 }
 
+SurfaceSource Window::surfaceSource() const {
+  SurfaceSource source;
+  uint32_t count = 0;
+  const char** needed = glfwGetRequiredInstanceExtensions(&count);
+  if (needed == nullptr) {
+    throw std::runtime_error("GLFW finds no Vulkan loader or no surface extension");
+  }
+  source.instanceExtensions.assign(needed, needed + count);
+  source.create = [window = window_](VkInstance instance) {
+    VkSurfaceKHR surface = VK_NULL_HANDLE;
+    check(glfwCreateWindowSurface(instance, window, nullptr, &surface), "glfwCreateWindowSurface");
+    return surface;
+  };
+  return source;
+}
+
 bool Window::closed() const {
   return glfwWindowShouldClose(window_) == GLFW_TRUE;
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "camera.hpp"
+#include "engine/gpu.hpp"
 
 struct GLFWwindow;
 
@@ -18,6 +19,7 @@ class Window {
   Window& operator=(const Window&) = delete;
 
   GLFWwindow* handle() const { return window_; }
+  SurfaceSource surfaceSource() const;
   bool closed() const;
   // Pixels; waits while the window is minimised.
   VkExtent2D extent() const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The window sample in a virtual display: no validation message, a picture in the file, and the
-// same picture from every composite mode.
+// The hosts with a window in a virtual display: no validation message, a picture in the file, and
+// the same picture from every composite mode.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -26,9 +26,31 @@ namespace {
 constexpr int WIDTH = 320;
 constexpr int HEIGHT = 180;
 
-int run(const std::string& arguments) {
-  const int status = std::system((std::string(WELKIN_WINDOW) + " " + arguments).c_str());
+int runProgram(const std::string& program, const std::string& arguments) {
+  const int status = std::system((program + " " + arguments).c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+int run(const std::string& arguments) {
+  return runProgram(WELKIN_WINDOW, arguments);
+}
+
+// RGB bytes of a file, which is removed.
+std::vector<unsigned char> readPicture(const std::string& file, int expectedWidth,
+                                       int expectedHeight) {
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  unsigned char* data = stbi_load(file.c_str(), &width, &height, &channels, 3);
+  std::vector<unsigned char> pixels;
+  if (data != nullptr) {
+    pixels.assign(data,
+                  data + size_t{3} * static_cast<size_t>(width) * static_cast<size_t>(height));
+    stbi_image_free(data);
+  }
+  EXPECT_EQ(width, expectedWidth);
+  EXPECT_EQ(height, expectedHeight);
+  std::remove(file.c_str());
+  return pixels;
 }
 
 // RGB bytes of a screenshot after a few frames, under validation.
@@ -40,20 +62,7 @@ std::vector<unsigned char> screenshot(const std::string& mode, const std::string
                 " --screenshot " + file + " " + more),
             0)
       << mode;
-  int width = 0;
-  int height = 0;
-  int channels = 0;
-  unsigned char* data = stbi_load(file.c_str(), &width, &height, &channels, 3);
-  std::vector<unsigned char> pixels;
-  if (data != nullptr) {
-    pixels.assign(data,
-                  data + size_t{3} * static_cast<size_t>(width) * static_cast<size_t>(height));
-    stbi_image_free(data);
-  }
-  EXPECT_EQ(width, WIDTH);
-  EXPECT_EQ(height, HEIGHT);
-  std::remove(file.c_str());
-  return pixels;
+  return readPicture(file, WIDTH, HEIGHT);
 }
 
 TEST(WindowSample, EveryCompositeModeShowsTheSamePictureWithoutAMessage) {
@@ -96,17 +105,7 @@ TEST(WindowSample, ThePanelLiesOverThePictureAndChangesNothingBesides) {
     EXPECT_EQ(
         run("--validate --quality low --frames 4 --size 640x360 --screenshot " + file + " " + more),
         0);
-    int width = 0;
-    int height = 0;
-    int channels = 0;
-    unsigned char* data = stbi_load(file.c_str(), &width, &height, &channels, 3);
-    std::vector<unsigned char> pixels;
-    if (data != nullptr) {
-      pixels.assign(data, data + size_t{3} * 640 * 360);
-      stbi_image_free(data);
-    }
-    std::remove(file.c_str());
-    return pixels;
+    return readPicture(file, 640, 360);
   };
   const std::vector<unsigned char> without = wide("");
   const std::vector<unsigned char> with = wide("--panel");
@@ -132,6 +131,46 @@ TEST(WindowSample, ShowsASceneFileAndKeepsABudget) {
   const std::vector<unsigned char> loaded = screenshot("compute", scene + " --budget 20");
   ASSERT_EQ(loaded.size(), own.size());
   EXPECT_NE(loaded, own);
+}
+
+double mean(const std::vector<unsigned char>& pixels, int fromRow, int toRow, int channel) {
+  double sum = 0;
+  int count = 0;
+  for (int y = fromRow; y < toRow; ++y) {
+    for (int x = 0; x < WIDTH; ++x, ++count) {
+      sum += pixels[3 * static_cast<size_t>(y * WIDTH + x) + static_cast<size_t>(channel)];
+    }
+  }
+  return sum / count;
+}
+
+// z up, left-handed, 24-bit depth, two views, three frames in flight, a shared queue.
+TEST(QtSample, ShowsSkyAboveMeadowWithoutAMessage) {
+  if (std::string(WELKIN_QT).empty()) {
+    GTEST_SKIP() << "no Qt sample or no xvfb-run in this build";
+  }
+  const std::string file = testing::TempDir() + "welkin_qt.png";
+  const std::string size = std::to_string(WIDTH) + "x" + std::to_string(HEIGHT);
+  ASSERT_EQ(runProgram(WELKIN_QT, "--validate --quality low --frames 5 --size " + size +
+                                      " --screenshot " + file),
+            0);
+  const std::vector<unsigned char> pixels = readPicture(file, WIDTH, HEIGHT);
+  ASSERT_FALSE(pixels.empty());
+  constexpr int RED = 0;
+  constexpr int GREEN = 1;
+  constexpr int BLUE = 2;
+  // A blue sky at the top; grass, green before blue, at the bottom; neither black nor white.
+  EXPECT_GT(mean(pixels, 0, 20, BLUE), mean(pixels, 0, 20, RED) + 20.0);
+  EXPECT_LT(mean(pixels, 0, 20, BLUE), 250.0);
+  EXPECT_GT(mean(pixels, HEIGHT - 20, HEIGHT, GREEN), mean(pixels, HEIGHT - 20, HEIGHT, BLUE) + 20);
+}
+
+TEST(QtSample, BadOptionsAreErrors) {
+  if (std::string(WELKIN_QT).empty()) {
+    GTEST_SKIP() << "no Qt sample or no xvfb-run in this build";
+  }
+  EXPECT_NE(runProgram(WELKIN_QT, "--quality best >/dev/null 2>&1"), 0);
+  EXPECT_NE(runProgram(WELKIN_QT, "--screenshot a.png >/dev/null 2>&1"), 0);
 }
 
 TEST(WindowSample, BadOptionsAreErrors) {

@@ -1,21 +1,29 @@
 // SPDX-License-Identifier: MIT
-// The engine's instance, device and queue.
+// An engine's instance, device and queue. What the sample hosts with a window have in common.
 #pragma once
 
 #include <vulkan/vulkan.h>
 
 #include <atomic>
+#include <functional>
+#include <mutex>
 #include <vector>
-
-struct GLFWwindow;
 
 // Throws std::runtime_error naming the call for a negative result.
 void check(VkResult result, const char* call);
 
+// How a toolkit's window gets its surface.
+struct SurfaceSource {
+  std::vector<const char*> instanceExtensions;
+  std::function<VkSurfaceKHR(VkInstance)> create;
+  // The toolkit destroys the surface with the window; the instance is left to the source's maker.
+  bool toolkitDestroys = false;
+};
+
 class Gpu {
  public:
   // The window must outlive it.
-  Gpu(GLFWwindow* window, bool validate);
+  Gpu(const SurfaceSource& source, bool validate);
   ~Gpu();
   Gpu(const Gpu&) = delete;
   Gpu& operator=(const Gpu&) = delete;
@@ -28,10 +36,15 @@ class Gpu {
   uint32_t family() const { return family_; }
   // Messages of the validation layer so far.
   uint32_t messages() const { return messages_; }
-  void waitIdle() const { check(vkDeviceWaitIdle(device_), "vkDeviceWaitIdle"); }
+  // Held while anything is submitted or presented: threads may share the queue.
+  std::mutex& queueLock() const { return queueLock_; }
+  void waitIdle() const {
+    const std::scoped_lock lock(queueLock_);
+    check(vkDeviceWaitIdle(device_), "vkDeviceWaitIdle");
+  }
 
  private:
-  void createInstance(bool validate);
+  void createInstance(std::vector<const char*> extensions, bool validate);
   void pickDevice();
   void createDevice();
   static VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
@@ -46,5 +59,7 @@ class Gpu {
   uint32_t family_ = 0;
   VkDevice device_ = VK_NULL_HANDLE;
   VkQueue queue_ = VK_NULL_HANDLE;
+  mutable std::mutex queueLock_;
+  bool ownsSurface_;
   std::atomic<uint32_t> messages_{0};
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "swapchain.hpp"
+#include "engine/swapchain.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -106,6 +106,7 @@ bool Swapchain::present(uint32_t index) const {
   info.swapchainCount = 1;
   info.pSwapchains = &swapchain_;
   info.pImageIndices = &index;
+  const std::scoped_lock lock(gpu_.queueLock());
   const VkResult result = vkQueuePresentKHR(gpu_.queue(), &info);
   if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) {
     return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gpu.hpp"
+#include "engine/gpu.hpp"
 
 #include <welkin/welkin_vulkan.h>
 
@@ -8,31 +8,32 @@
 #include <string>
 #include <welkin/welkin.hpp>
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-
 void check(VkResult result, const char* call) {
   if (result < 0) {
     throw std::runtime_error(std::string(call) + " returned VkResult " + std::to_string(result));
   }
 }
 
-Gpu::Gpu(GLFWwindow* window, bool validate) {
-  createInstance(validate);
-  check(glfwCreateWindowSurface(instance_, window, nullptr, &surface_), "glfwCreateWindowSurface");
+Gpu::Gpu(const SurfaceSource& source, bool validate) : ownsSurface_(!source.toolkitDestroys) {
+  createInstance(source.instanceExtensions, validate);
+  surface_ = source.create(instance_);
   pickDevice();
   createDevice();
 }
 
 Gpu::~Gpu() {
   vkDestroyDevice(device_, nullptr);
-  vkDestroySurfaceKHR(instance_, surface_, nullptr);
+  if (ownsSurface_) {
+    vkDestroySurfaceKHR(instance_, surface_, nullptr);
+  }
   if (messenger_ != VK_NULL_HANDLE) {
     const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
         vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));
     destroy(instance_, messenger_, nullptr);
   }
-  vkDestroyInstance(instance_, nullptr);
+  if (ownsSurface_) {
+    vkDestroyInstance(instance_, nullptr);
+  }
 }
 
 VkBool32 Gpu::onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
@@ -42,16 +43,10 @@ VkBool32 Gpu::onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMess
   return VK_FALSE;
 }
 
-void Gpu::createInstance(bool validate) {
+void Gpu::createInstance(std::vector<const char*> extensions, bool validate) {
   VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
-  application.pApplicationName = "welkin_window";
+  application.pApplicationName = "welkin sample";
   application.apiVersion = VK_API_VERSION_1_3;
-  uint32_t count = 0;
-  const char** needed = glfwGetRequiredInstanceExtensions(&count);
-  if (needed == nullptr) {
-    throw std::runtime_error("GLFW finds no Vulkan loader or no surface extension");
-  }
-  std::vector<const char*> extensions(needed, needed + count);
   VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
   info.pApplicationInfo = &application;
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What the engine's two graphics pipelines have in common.
+// What an engine's two graphics pipelines have in common.
 #pragma once
 
 #include <span>
 
-#include "gpu.hpp"
+#include "engine/gpu.hpp"
 
 struct PipelineInfo {
   std::span<const uint32_t> vertexCode;
@@ -15,6 +15,7 @@ struct PipelineInfo {
   VkPipelineLayout layout = VK_NULL_HANDLE;
   VkFormat colorFormat = VK_FORMAT_UNDEFINED;
   VkFormat depthFormat = VK_FORMAT_UNDEFINED;  // UNDEFINED: no depth buffer
+  VkRenderPass renderPass = VK_NULL_HANDLE;    // its first subpass; null: dynamic rendering
 };
 
 // Triangles, viewport and scissor dynamic, reversed depth test.

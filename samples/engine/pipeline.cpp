@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline.hpp"
+#include "engine/pipeline.hpp"
 
 #include <array>
 
@@ -60,7 +60,8 @@ VkPipeline makePipeline(const Gpu& gpu, const PipelineInfo& pipeline) {
   rendering.depthAttachmentFormat = pipeline.depthFormat;
 
   VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
-  info.pNext = &rendering;
+  info.pNext = pipeline.renderPass == VK_NULL_HANDLE ? &rendering : nullptr;
+  info.renderPass = pipeline.renderPass;
   info.stageCount = static_cast<uint32_t>(stages.size());
   info.pStages = stages.data();
   info.pVertexInputState = &pipeline.vertexInput;

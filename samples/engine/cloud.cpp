@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Procedural clouds: a few rounded heaps with flat bases, eroded by fractal noise.
-#include "cloud.hpp"
+#include "engine/cloud.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "gpu.hpp"
+#include "engine/gpu.hpp"
 
 class Swapchain {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh.hpp"
+#include "engine/mesh.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "resources.hpp"
+#include "engine/resources.hpp"
 
 #include <stdexcept>
 
@@ -25,12 +25,12 @@ VkDeviceMemory allocate(const Gpu& gpu, const VkMemoryRequirements& needs,
 }  // namespace
 
 Image::Image(const Gpu& gpu, VkExtent2D extent, VkFormat format, VkImageUsageFlags usage,
-             VkImageAspectFlags aspect)
+             VkImageAspectFlags aspect, uint32_t depth)
     : gpu_(gpu), extent_(extent), format_(format), aspect_(aspect) {
   VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
-  info.imageType = VK_IMAGE_TYPE_2D;
+  info.imageType = depth > 1 ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D;
   info.format = format;
-  info.extent = {extent.width, extent.height, 1};
+  info.extent = {extent.width, extent.height, depth};
   info.mipLevels = 1;
   info.arrayLayers = 1;
   info.samples = VK_SAMPLE_COUNT_1_BIT;
@@ -42,7 +42,7 @@ Image::Image(const Gpu& gpu, VkExtent2D extent, VkFormat format, VkImageUsageFla
   check(vkBindImageMemory(gpu.device(), image_, memory_, 0), "vkBindImageMemory");
   VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
   view.image = image_;
-  view.viewType = VK_IMAGE_VIEW_TYPE_2D;
+  view.viewType = depth > 1 ? VK_IMAGE_VIEW_TYPE_3D : VK_IMAGE_VIEW_TYPE_2D;
   view.format = format;
   view.subresourceRange = {aspect, 0, 1, 0, 1};
   check(vkCreateImageView(gpu.device(), &view, nullptr, &view_), "vkCreateImageView");

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "screenshot.hpp"
+#include "engine/screenshot.hpp"
 
 #include <stdexcept>
 #include <utility>
 #include <vector>
-
-#include "targets.hpp"
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "frames.hpp"
+#include "engine/frames.hpp"
 
-Frames::Frames(const Gpu& gpu) : gpu_(gpu) {
+Frames::Frames(const Gpu& gpu, uint32_t inFlight) : gpu_(gpu), slots_(inFlight) {
   for (Slot& slot : slots_) {
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.queueFamilyIndex = gpu.family();
@@ -62,6 +62,7 @@ void Frames::submit(VkSemaphore rendered) {
   info.pCommandBufferInfos = &commands;
   info.signalSemaphoreInfoCount = 1;
   info.pSignalSemaphoreInfos = &signal;
+  const std::scoped_lock lock(gpu_.queueLock());
   check(vkQueueSubmit2(gpu_.queue(), 1, &info, slot.done), "vkQueueSubmit2");
   ++submitted_;
 }

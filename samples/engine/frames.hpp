@@ -2,15 +2,13 @@
 // Frames in flight: the CPU records one while the GPU draws the one before.
 #pragma once
 
-#include <array>
+#include <vector>
 
-#include "gpu.hpp"
+#include "engine/gpu.hpp"
 
 class Frames {
  public:
-  static constexpr uint32_t IN_FLIGHT = 2;
-
-  explicit Frames(const Gpu& gpu);
+  Frames(const Gpu& gpu, uint32_t inFlight);
   ~Frames();
   Frames(const Frames&) = delete;
   Frames& operator=(const Frames&) = delete;
@@ -25,7 +23,7 @@ class Frames {
   // Number of the frame that is being recorded or was submitted last; the first is 1.
   uint64_t index() const { return index_; }
   // All frames up to this one are complete.
-  uint64_t completed() const { return index_ > IN_FLIGHT ? index_ - IN_FLIGHT : 0; }
+  uint64_t completed() const { return index_ > slots_.size() ? index_ - slots_.size() : 0; }
   VkSemaphore imageReady() const { return next().imageReady; }
 
  private:
@@ -36,10 +34,10 @@ class Frames {
     VkSemaphore imageReady = VK_NULL_HANDLE;
   };
   // The slot of the frame after the last one that was submitted.
-  const Slot& next() const { return slots_[submitted_ % IN_FLIGHT]; }
+  const Slot& next() const { return slots_[submitted_ % slots_.size()]; }
 
   const Gpu& gpu_;
-  std::array<Slot, IN_FLIGHT> slots_;
+  std::vector<Slot> slots_;
   uint64_t index_ = 0;
   uint64_t submitted_ = 0;
 };

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "resources.hpp"
+#include "engine/resources.hpp"
 
 class Screenshot {
  public:
