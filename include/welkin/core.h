@@ -236,6 +236,7 @@ WLK_API void wlkDestroyContext(WlkContext context);
 
 enum { WLK_MODE_CPU = 0, WLK_MODE_HEADLESS = 1, WLK_MODE_ENGINE_DEVICE = 2 };
 
+/** What a context can do, and on which device. */
 typedef struct WlkCapabilities {
   uint32_t sType;
   uint32_t structSize;
@@ -255,7 +256,8 @@ typedef struct WlkCapabilities {
   char deviceName[WLK_MESSAGE_SIZE];
 } WlkCapabilities;
 
-WLK_API WlkResult wlkGetCapabilities(WlkContext context, WlkCapabilities* capabilities); /* [C] */
+/** Fills what the context can do. Errors: INVALID_HANDLE, INVALID_ARGUMENT. [C] */
+WLK_API WlkResult wlkGetCapabilities(WlkContext context, WlkCapabilities* capabilities);
 
 #ifdef __cplusplus
 }

@@ -21,6 +21,7 @@ typedef struct WlkRay {
   double length;
 } WlkRay;
 
+/** Rays for wlkEvalSky. */
 typedef struct WlkRayBatch {
   uint32_t sType;
   uint32_t structSize;
@@ -137,6 +138,7 @@ enum {
   WLK_ORDER_POISSON = 2
 };
 
+/** Which directions of which medium, and after how many scatterings. */
 typedef struct WlkPhaseQuery {
   uint32_t sType;
   uint32_t structSize;

@@ -319,8 +319,8 @@ typedef struct WlkMediumOptics {
   uint32_t reserved0;
 } WlkMediumOptics;
 
-WLK_API WlkResult wlkGetMediumOptics(WlkContext context, WlkMedium medium,
-                                     WlkMediumOptics* optics); /* [C] */
+/** Fills a medium's optics. [C] Errors: INVALID_HANDLE, INVALID_ARGUMENT. */
+WLK_API WlkResult wlkGetMediumOptics(WlkContext context, WlkMedium medium, WlkMediumOptics* optics);
 
 /** Formats of volume data. */
 enum {
@@ -339,6 +339,7 @@ typedef struct WlkVolumeField {
   uint32_t reserved0;
 } WlkVolumeField;
 
+/** A box of voxels: how many, of what, and where. */
 typedef struct WlkVolumeInfo {
   uint32_t sType;
   uint32_t structSize;

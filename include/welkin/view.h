@@ -43,6 +43,7 @@ enum {
   WLK_COLOR_SRGB = 1
 };
 
+/** A picture that is drawn again and again: its size, and how it reaches the engine's. */
 typedef struct WlkViewInfo {
   uint32_t sType;
   uint32_t structSize;
@@ -61,11 +62,14 @@ typedef struct WlkViewInfo {
   uint32_t reserved0;
 } WlkViewInfo;
 
-WLK_API WlkResult wlkCreateView(WlkContext context, const WlkViewInfo* info,
-                                WlkView* view); /* [C] */
+/** Creates a view with the default camera and quality; wlkPrepare before it is drawn. [C] Errors:
+ *  INVALID_ARGUMENT, UNSUPPORTED_FORMAT, MISSING_FEATURE (BLEND), WRONG_STATE in CPU mode and for
+ *  BLEND in headless mode, OUT_OF_HOST_MEMORY. */
+WLK_API WlkResult wlkCreateView(WlkContext context, const WlkViewInfo* info, WlkView* view);
 /** Changes size, composite mode, format or layers. Needs wlkPrepare. [C] */
 WLK_API WlkResult wlkUpdateView(WlkContext context, WlkView view, const WlkViewInfo* info);
-WLK_API WlkResult wlkDestroyView(WlkContext context, WlkView view); /* [C] */
+/** The memory is freed when no frame in flight uses it. [C] */
+WLK_API WlkResult wlkDestroyView(WlkContext context, WlkView view);
 
 /** Near, far, field of view, handedness, reversed and infinite depth follow from the matrix. */
 typedef struct WlkCamera {
@@ -253,6 +257,7 @@ WLK_API const char* wlkControlReasonName(uint32_t reason);
  *  Errors: WRONG_STATE in CPU mode, OUT_OF_*, DEVICE_LOST. */
 WLK_API WlkResult wlkPrepare(WlkContext context);
 
+/** Which frame begins, and which are over. */
 typedef struct WlkFrameInfo {
   uint32_t sType;
   uint32_t structSize;
@@ -332,6 +337,7 @@ enum {
   WLK_IMAGE_TRANSMITTANCE = 2
 };
 
+/** Where a picture is copied to. */
 typedef struct WlkImageData {
   uint32_t sType;
   uint32_t structSize;
@@ -402,6 +408,7 @@ typedef struct WlkPassStats {
   uint64_t gpuTime_ns;
 } WlkPassStats;
 
+/** What was recorded for a view's frame, and what the context holds. */
 typedef struct WlkFrameStats {
   uint32_t sType;
   uint32_t structSize;

@@ -238,7 +238,8 @@ WLK_API WlkResult wlkVulkanCreateShadowMap(WlkContext context, const WlkShadowMa
 /** Changes it, for example where it lies. Only another size or content needs wlkPrepare. [C] */
 WLK_API WlkResult wlkVulkanSetShadowMap(WlkContext context, WlkShadowMap map,
                                         const WlkShadowMapInfo* info);
-WLK_API WlkResult wlkVulkanDestroyShadowMap(WlkContext context, WlkShadowMap map); /* [C] */
+/** Destroys the map, not the images it was written to. [C] */
+WLK_API WlkResult wlkVulkanDestroyShadowMap(WlkContext context, WlkShadowMap map);
 
 /** Writes the map to an image of its size (usage STORAGE), after wlkVulkanCmdUpdate and outside a
  *  render pass; at most once per map and frame. Where light, volumes, area and image are as they
