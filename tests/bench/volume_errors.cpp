@@ -18,6 +18,7 @@ namespace {
 
 struct Options {
   std::string truth;
+  std::string les;
   std::string json;
   std::string csv;
   std::string page;
@@ -137,7 +138,7 @@ void run(const Options& options) {
   if (!options.json.empty()) {
     report["rows"] = readRows(options.json);
   }
-  const std::vector<VolumeGroup> groups = volumeGroups(options.truth);
+  const std::vector<VolumeGroup> groups = volumeGroups(options.truth, options.les);
   VolumeWorld world;
   report["device"] = deviceOf(world.capabilities());
   const Form* warm = nullptr;
@@ -182,6 +183,7 @@ int main(int argc, char** argv) {
   };
   app.add_option("--truth", options.truth, "Folder of the truth, tests/bench/reference/volumes")
       ->required();
+  app.add_option("--les", options.les, "Data of the cloud of samples/scenes/les-cloud.json");
   app.add_option("--out", options.json, "JSON file; its rows stay unless measured again");
   app.add_option("--csv", options.csv, "The same rows as CSV");
   app.add_option("--docs", options.page, "Page whose tables are written from all rows");

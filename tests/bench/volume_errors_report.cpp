@@ -201,7 +201,7 @@ void writeTables(const std::string& page, const Ordered& rows) {
   const size_t from = begin + std::string(BEGIN).size();
   text.replace(from, end - from,
                "\n" + pictureTable(rows, "sphere") + "\n" + pictureTable(rows, "cumulus") + "\n" +
-                   slabTable(rows) + "\n" + timeTable(rows));
+                   pictureTable(rows, "les") + "\n" + slabTable(rows) + "\n" + timeTable(rows));
   std::ofstream stream(page);
   stream << text;
   stream.flush();

@@ -5,6 +5,8 @@
 #include <ctime>
 #include <numbers>
 
+#include "bench/volume_clouds.hpp"
+
 namespace bench {
 namespace {
 
@@ -22,8 +24,7 @@ constexpr double SLAB_VIEW_deg = 0.2;  // field of view
 constexpr uint32_t SLAB_VOXELS = 32;   // along an edge
 constexpr uint32_t SLAB_RAYS = 8;      // along the picture's edge
 constexpr uint32_t SPHERE_RAYS = 3;    // along a pixel's edge
-constexpr uint32_t CUMULUS_RAYS = 8;   // along a pixel's edge
-constexpr float CUMULUS_DENSITY = 0.05F;  // extinction at density 1, 1/m
+constexpr uint32_t CLOUD_RAYS = 8;     // along a pixel's edge
 
 host::Vec3 vec(const welkin::reference::Point& p) {
   return {p[0], p[1], p[2]};
@@ -71,26 +72,19 @@ VolumeGroup sphereGroup(const std::string& folder, int opticalRadius) {
   return group;
 }
 
-VolumeGroup cloudGroup(const std::string& folder, const CloudCase& one) {
+VolumeGroup cloudGroup(const std::string& folder, const CloudCase& one, const char* kind,
+                       const std::function<std::vector<float>()>& extinction) {
   VolumeGroup group;
-  group.kind = "cumulus";
+  group.kind = kind;
   group.name = one.name;
   for (size_t k = 0; k < 3; ++k) {
     group.size[k] = static_cast<uint32_t>(one.voxels[k]);
   }
-  group.extinction = [size = group.size] {
-    host::CumulusInfo info;
-    info.size = size;
-    std::vector<float> values = host::makeCumulus(info).values;
-    for (float& value : values) {
-      value *= CUMULUS_DENSITY;
-    }
-    return values;
-  };
+  group.extinction = extinction;
   group.place = boxAt(vec(one.min), vec(one.extent));
   group.droplets = one.droplets;
   group.sun = vec(one.sun);
-  group.perPixel = CUMULUS_RAYS;
+  group.perPixel = CLOUD_RAYS;
   group.shots.push_back({one.name, cameraAt(vec(one.eye), vec(one.target), one.verticalFov_deg),
                          readTruthImage(folder + "/" + one.name + ".csv")});
   return group;
@@ -163,13 +157,16 @@ WlkMediumInfo mediumOf(const VolumeGroup& group) {
 
 }  // namespace
 
-std::vector<VolumeGroup> volumeGroups(const std::string& folder) {
+std::vector<VolumeGroup> volumeGroups(const std::string& folder, const std::string& les) {
   std::vector<VolumeGroup> groups;
   for (const int radius : SPHERE_RADII) {
     groups.push_back(sphereGroup(folder, radius));
   }
   for (const CloudCase& one : cumulusCases()) {
-    groups.push_back(cloudGroup(folder, one));
+    groups.push_back(cloudGroup(folder, one, "cumulus", cumulusExtinction));
+  }
+  for (const CloudCase& one : les.empty() ? std::vector<CloudCase>() : lesCases()) {
+    groups.push_back(cloudGroup(folder, one, "les", [les] { return lesExtinction(les); }));
   }
   for (const SlabTruth& row : readSlabTruth(folder + "/slabs.csv")) {
     if (groups.back().name != slabName(row)) {

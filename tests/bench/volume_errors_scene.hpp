@@ -24,7 +24,7 @@ struct VolumeShot {
 /// Shots of one volume in one light.
 struct VolumeGroup {
   std::string name;
-  std::string kind;  // "sphere", "cumulus", "slab"
+  std::string kind;  // "sphere", "cumulus", "les", "slab"
   std::array<uint32_t, 3> size{};
   std::function<std::vector<float>()> extinction;  // 1/m, x fastest
   host::Affine place{};
@@ -36,8 +36,9 @@ struct VolumeGroup {
   std::vector<VolumeShot> shots;
 };
 
-/// Spheres, clouds and slabs of the folder's files.
-std::vector<VolumeGroup> volumeGroups(const std::string& folder);
+/// Spheres, clouds and slabs of the folder's files; the cloud of a large-eddy simulation by its
+/// data's file, if one is given.
+std::vector<VolumeGroup> volumeGroups(const std::string& folder, const std::string& les);
 
 struct VolumeFrame {
   double cpu_ms = 0;           // of all threads of the process

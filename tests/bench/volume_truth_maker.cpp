@@ -16,6 +16,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "bench/volume_clouds.hpp"
 #include "bench/volume_truth.hpp"
 #include "common/error.hpp"
 #include "common/volume.hpp"
@@ -71,19 +72,6 @@ rt::PhaseFunction phaseOf(const PhaseCurve& curve) {
     values.push_back({value, value, value});
   }
   return rt::PhaseFunction::table(curve.angle, values);
-}
-
-// Data (x, y, z) with z up to rows of the world, (x, z, -y).
-std::vector<float> turnedUp(const host::Grid& grid) {
-  const auto [nx, ny, nz] = grid.size;
-  std::vector<float> values;
-  for (uint32_t z = ny; z-- > 0;) {
-    for (uint32_t y = 0; y < nz; ++y) {
-      const auto row = grid.values.begin() + std::ptrdiff_t{nx} * (z + std::ptrdiff_t{ny} * y);
-      values.insert(values.end(), row, row + nx);
-    }
-  }
-  return values;
 }
 
 void makeClouds(const Options& options, const std::vector<CloudCase>& cases,
@@ -173,19 +161,9 @@ void run(const Options& options) {
            [&](uint64_t paths, uint64_t seed) { return traceSphere(radius, angle, paths, seed); });
     }
   }
-  makeClouds(options, cumulusCases(), [] {
-    constexpr float EXTINCTION = 0.05F;  // 1/m at density 1
-    host::CumulusInfo info;
-    info.size = {96, 72, 96};
-    std::vector<float> values = host::makeCumulus(info).values;
-    for (float& value : values) {
-      value *= EXTINCTION;
-    }
-    return values;
-  });
+  makeClouds(options, cumulusCases(), cumulusExtinction);
   if (!options.les.empty()) {
-    makeClouds(options, lesCases(),
-               [&] { return turnedUp(host::loadLes(options.les, host::LesInfo{})); });
+    makeClouds(options, lesCases(), [&] { return lesExtinction(options.les); });
   }
 }
 
