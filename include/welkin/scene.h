@@ -273,28 +273,15 @@ enum {
   WLK_ATMOSPHERE_MARS = 3
 };
 
-/** What an atmosphere is made of, each part as its wlkSet function or wlkCreateMedium takes it. Its
- *  structSize tells the layout of all parts. */
-typedef struct WlkAtmospherePreset {
-  uint32_t sType;
-  uint32_t structSize;
-  const void* next;
-  WlkPlanet planet;
-  WlkSky sky;
-  /** extinction 0 where there is no such gas. */
-  WlkAbsorber absorber;
-  /** `medium` is 0: create hazeMedium and set it. */
-  WlkFog haze;
-  WlkMediumInfo hazeMedium;
-  /** The sun as seen from there, straight up. `irradiance` is relative to that at the Earth: 1
-   *  there; multiply it by the engine's own value. */
-  WlkLight sun;
-} WlkAtmospherePreset;
-
-/** Writes one of WLK_ATMOSPHERE_*; the caller changes what it wants and sets what it needs. Nested
- *  structures are written with sType, structSize and next = null. [F]
- *  Errors: INVALID_ARGUMENT (preset, structSize), UNKNOWN_STRUCT. */
-WLK_API WlkResult wlkGetAtmospherePreset(uint32_t preset, WlkAtmospherePreset* atmosphere);
+/** As wlkInitStruct, with the values of an atmosphere (WLK_ATMOSPHERE_*) instead of the defaults.
+ * It consists of WLK_STRUCT_PLANET, SKY, ABSORBER (extinction 0 where there is no such gas), FOG
+ * (its haze or dust; `medium` is 0: create the next and set it), MEDIUM_INFO (what the haze is) and
+ * LIGHT (the sun as seen from there, straight up; `irradiance` is relative to that at the Earth, 1
+ * there: multiply it by the engine's own value). The caller changes what it wants and sets what it
+ * needs. [F] Errors: INVALID_ARGUMENT (preset; null, structSize too short), UNKNOWN_STRUCT (another
+ *  structure). */
+WLK_API WlkResult wlkInitPresetStruct(uint32_t preset, uint32_t sType, uint32_t structSize,
+                                      void* structure);
 
 /** What one particle of a medium does to light. RGB. */
 typedef struct WlkMediumOptics {

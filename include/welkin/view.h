@@ -428,10 +428,11 @@ typedef struct WlkFrameStats {
 } WlkFrameStats;
 
 /** Statistics of the view's last recorded frame. `passCount` holds the room in `passes` and
- *  receives the number of passes; `passes` may be null. [C] NOT_READY before the first frame,
- *  INCOMPLETE if the array was too short. */
+ *  receives the number of passes; `stride` is the caller's sizeof(WlkPassStats); `passes` may be
+ *  null. [C] NOT_READY before the first frame, INCOMPLETE if the array was too short. Errors:
+ *  INVALID_ARGUMENT (stride too short). */
 WLK_API WlkResult wlkGetFrameStats(WlkContext context, WlkView view, WlkFrameStats* stats,
-                                   uint32_t* passCount, WlkPassStats* passes);
+                                   uint32_t* passCount, uint32_t stride, WlkPassStats* passes);
 
 /** "WLK_REASON_ZERO_DENSITY" and so on. [F] */
 WLK_API const char* wlkReasonName(uint32_t reason);

@@ -53,7 +53,6 @@ WELKIN_STRUCT_TYPE(::WlkLight, WLK_STRUCT_LIGHT);
 WELKIN_STRUCT_TYPE(::WlkFog, WLK_STRUCT_FOG);
 WELKIN_STRUCT_TYPE(::WlkAbsorber, WLK_STRUCT_ABSORBER);
 WELKIN_STRUCT_TYPE(::WlkAmbient, WLK_STRUCT_AMBIENT);
-WELKIN_STRUCT_TYPE(::WlkAtmospherePreset, WLK_STRUCT_ATMOSPHERE_PRESET);
 WELKIN_STRUCT_TYPE(::WlkMediumInfo, WLK_STRUCT_MEDIUM_INFO);
 WELKIN_STRUCT_TYPE(::WlkMediumOptics, WLK_STRUCT_MEDIUM_OPTICS);
 WELKIN_STRUCT_TYPE(::WlkVolumeInfo, WLK_STRUCT_VOLUME_INFO);
@@ -88,6 +87,16 @@ T make() {
   T structure = T();
   // It cannot fail: type and size match. Of an older library a newer structure would stay zero.
   (void)wlkInitStruct(StructType<T>::VALUE, static_cast<std::uint32_t>(sizeof(T)), &structure);
+  return structure;
+}
+
+/** A part of an atmosphere, WLK_ATMOSPHERE_*: makePreset<WlkSky>(WLK_ATMOSPHERE_MARS). With another
+ *  number all but sType and structSize stay zero. */
+template <class T>
+T makePreset(std::uint32_t preset) {
+  T structure = T();
+  (void)wlkInitPresetStruct(preset, StructType<T>::VALUE, static_cast<std::uint32_t>(sizeof(T)),
+                            &structure);
   return structure;
 }
 

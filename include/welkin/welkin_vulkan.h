@@ -263,10 +263,17 @@ typedef struct WlkShadowMapState {
   uint32_t volumes;
   uint32_t barriers;
   uint32_t descriptorWrites;
-  uint32_t reserved0;
-  /** `name`, `reason` and so on of the whole map: WLK_REASON_NEEDED, UNCHANGED, and for a map
-   *  without shadow NO_LIGHT, NOTHING_TO_DRAW (no volume), ZERO_DENSITY, OUTSIDE_VIEW. */
-  WlkPassStats pass;
+  /** 1 if commands were recorded, 0 if skipped. */
+  uint32_t recorded;
+  /** Of the whole map: WLK_REASON_NEEDED, UNCHANGED, and for a map without shadow NO_LIGHT,
+   *  NOTHING_TO_DRAW (no volume), ZERO_DENSITY, OUTSIDE_VIEW. */
+  uint32_t reason;
+  /** Dispatches recorded. */
+  uint32_t commands;
+  /** Shader invocations (threads) recorded. */
+  uint64_t invocations;
+  /** GPU time of the newest finished frame, ns; 0 before one finished. */
+  uint64_t gpuTime_ns;
 } WlkShadowMapState;
 
 /** State of the map in the frame that was recorded last. [C] NOT_READY before the first. */

@@ -63,9 +63,11 @@ void writeStatistics(const std::string& file, WlkContext context, WlkView view,
                      const host::Scene& scene, const RenderTimes& times) {
   auto stats = host::make<WlkFrameStats>();
   uint32_t count = 0;
-  host::check(wlkGetFrameStats(context, view, &stats, &count, nullptr), "wlkGetFrameStats");
+  host::check(wlkGetFrameStats(context, view, &stats, &count, sizeof(WlkPassStats), nullptr),
+              "wlkGetFrameStats");
   std::vector<WlkPassStats> passes(count);
-  host::check(wlkGetFrameStats(context, view, &stats, &count, passes.data()), "wlkGetFrameStats");
+  host::check(wlkGetFrameStats(context, view, &stats, &count, sizeof(WlkPassStats), passes.data()),
+              "wlkGetFrameStats");
   passes.resize(count);
   auto capabilities = host::make<WlkCapabilities>();
   host::check(wlkGetCapabilities(context, &capabilities), "wlkGetCapabilities");

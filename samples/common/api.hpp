@@ -40,9 +40,6 @@ inline constexpr WlkStructType structType(const WlkAbsorber&) {
 inline constexpr WlkStructType structType(const WlkAmbient&) {
   return WLK_STRUCT_AMBIENT;
 }
-inline constexpr WlkStructType structType(const WlkAtmospherePreset&) {
-  return WLK_STRUCT_ATMOSPHERE_PRESET;
-}
 inline constexpr WlkStructType structType(const WlkMediumInfo&) {
   return WLK_STRUCT_MEDIUM_INFO;
 }
@@ -110,6 +107,15 @@ template <class Struct>
 Struct make() {
   Struct value{};
   check(wlkInitStruct(structType(value), sizeof(Struct), &value), "wlkInitStruct");
+  return value;
+}
+
+/// A part of an atmosphere, WLK_ATMOSPHERE_*.
+template <class Struct>
+Struct makePreset(uint32_t preset) {
+  Struct value{};
+  check(wlkInitPresetStruct(preset, structType(value), sizeof(Struct), &value),
+        "wlkInitPresetStruct");
   return value;
 }
 

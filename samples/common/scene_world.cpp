@@ -8,10 +8,18 @@
 namespace host {
 namespace {
 
-WlkAtmospherePreset presetOf(uint32_t which) {
-  auto preset = make<WlkAtmospherePreset>();
-  check(wlkGetAtmospherePreset(which, &preset), "wlkGetAtmospherePreset");
-  return preset;
+// What a scene starts from.
+struct Initial {
+  WlkPlanet planet = make<WlkPlanet>();
+  WlkSky sky = make<WlkSky>();
+  WlkAbsorber absorber = make<WlkAbsorber>();
+  WlkFog haze = make<WlkFog>();
+  WlkLight sun = make<WlkLight>();
+};
+
+Initial presetOf(uint32_t which) {
+  return {makePreset<WlkPlanet>(which), makePreset<WlkSky>(which), makePreset<WlkAbsorber>(which),
+          makePreset<WlkFog>(which), makePreset<WlkLight>(which)};
 }
 
 void storeVector(const Vec3& v, float (&out)[3]) {
@@ -172,14 +180,15 @@ void parseFog(const JsonNode& node, const WlkFog& initial, Scene& scene) {
 }  // namespace
 
 void parseWorld(const JsonNode& root, Scene& scene) {
-  auto initial = make<WlkAtmospherePreset>();
+  Initial initial;
   if (root.has("atmosphere")) {
-    initial = presetOf(
-        root.at("atmosphere").word({"earth-clear", "earth-hazy", "earth-polluted", "mars"}));
+    const uint32_t which =
+        root.at("atmosphere").word({"earth-clear", "earth-hazy", "earth-polluted", "mars"});
+    initial = presetOf(which);
     scene.sky = initial.sky;
     scene.absorber = initial.absorber;
     scene.fog = initial.haze;
-    scene.fogMedium = MediumDesc{"of the atmosphere", initial.hazeMedium, {}, {}};
+    scene.fogMedium = MediumDesc{"of the atmosphere", makePreset<WlkMediumInfo>(which), {}, {}};
   }
   scene.planet =
       root.has("planet") ? parsePlanet(root.at("planet"), initial.planet) : initial.planet;

@@ -143,11 +143,13 @@ FrameReport Atmosphere::report() const {
   FrameReport report;
   report.frame = make<WlkFrameStats>();
   uint32_t count = 0;
-  if (check(wlkGetFrameStats(context_, view_, &report.frame, &count, nullptr)) == WLK_NOT_READY) {
+  if (check(wlkGetFrameStats(context_, view_, &report.frame, &count, sizeof(WlkPassStats),
+                             nullptr)) == WLK_NOT_READY) {
     return report;
   }
   report.passes.resize(count);
-  check(wlkGetFrameStats(context_, view_, &report.frame, &count, report.passes.data()));
+  check(wlkGetFrameStats(context_, view_, &report.frame, &count, sizeof(WlkPassStats),
+                         report.passes.data()));
   report.quality = make<WlkQualityState>();
   check(wlkGetQualityState(context_, view_, &report.quality));
   WlkErrorEstimate estimate = make<WlkErrorEstimate>();

@@ -85,17 +85,6 @@ WlkMediumInfo medium() {
   return m;
 }
 
-WlkAtmospherePreset preset() {
-  auto p = blank<WlkAtmospherePreset>(WLK_STRUCT_ATMOSPHERE_PRESET);
-  p.planet = planet();
-  p.sky = sky();
-  p.absorber = absorber();
-  p.haze = fog();
-  p.hazeMedium = medium();
-  p.sun = light();
-  return p;
-}
-
 WlkVolumeInfo volume() {
   auto v = blank<WlkVolumeInfo>(WLK_STRUCT_VOLUME_INFO);
   v.size[0] = v.size[1] = v.size[2] = 1;
@@ -221,8 +210,6 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
       return write(absorber(), structSize, structure);
     case WLK_STRUCT_AMBIENT:
       return write(blank<WlkAmbient>(sType), structSize, structure);
-    case WLK_STRUCT_ATMOSPHERE_PRESET:
-      return write(preset(), structSize, structure);
     case WLK_STRUCT_MEDIUM_INFO:
       return write(medium(), structSize, structure);
     case WLK_STRUCT_MEDIUM_OPTICS:

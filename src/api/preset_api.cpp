@@ -3,6 +3,7 @@
 // 680, 550, 440 nm. docs/atmospheres.md has the same numbers as a table.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "api/context.hpp"
 
@@ -15,9 +16,23 @@ void assign(float (&to)[N], const float (&from)[N]) {
   std::copy_n(from, N, to);
 }
 
-WlkAtmospherePreset defaults() {
-  WlkAtmospherePreset p;
-  wlkInitStruct(WLK_STRUCT_ATMOSPHERE_PRESET, sizeof p, &p);
+struct Preset {
+  WlkPlanet planet;
+  WlkSky sky;
+  WlkAbsorber absorber;
+  WlkFog haze;
+  WlkMediumInfo hazeMedium;
+  WlkLight sun;
+};
+
+Preset defaults() {
+  Preset p;
+  wlkInitStruct(WLK_STRUCT_PLANET, sizeof p.planet, &p.planet);
+  wlkInitStruct(WLK_STRUCT_SKY, sizeof p.sky, &p.sky);
+  wlkInitStruct(WLK_STRUCT_ABSORBER, sizeof p.absorber, &p.absorber);
+  wlkInitStruct(WLK_STRUCT_FOG, sizeof p.haze, &p.haze);
+  wlkInitStruct(WLK_STRUCT_MEDIUM_INFO, sizeof p.hazeMedium, &p.hazeMedium);
+  wlkInitStruct(WLK_STRUCT_LIGHT, sizeof p.sun, &p.sun);
   // Exponents of the Sun's limb: Hestroffer and Magnan 1998.
   assign(p.sun.limbDarkening, {0.36f, 0.47f, 0.62f});
   return p;
@@ -32,8 +47,8 @@ void setHaze(WlkFog& haze, double opticalDepth, double scaleHeight) {
 
 // Air and ozone of the defaults. Particles of the accumulation mode, 0.35 um: mean cosine 0.72 at
 // 550 nm; continental aerosol has 0.70 to 0.71 (OPAC, Hess et al. 1998).
-WlkAtmospherePreset earth(double opticalDepth, double scaleHeight, const float (&albedo)[3]) {
-  WlkAtmospherePreset p = defaults();
+Preset earth(double opticalDepth, double scaleHeight, const float (&albedo)[3]) {
+  Preset p = defaults();
   p.hazeMedium.particle = WLK_PARTICLE_HAZE;
   p.hazeMedium.diameter_um = 0.35f;
   assign(p.hazeMedium.singleScatteringAlbedo, albedo);
@@ -65,10 +80,10 @@ double carbonDioxideScattering(double wavelength_um) {
 // Dust: optical depth 0.5 as at the landing sites outside the storms (Smith et al. 1997), mixed
 // with the gas; albedo rising from 0.73 at 388 nm to 0.97 at 650 nm (Wolff et al. 2009) and 0.76 at
 // 444 nm (Tomasko et al. 1999); mean cosine 0.69 (Chen-Chen et al. 2019). The sun: at 1.5237 au.
-WlkAtmospherePreset mars() {
+Preset mars() {
   constexpr double DISTANCE = 1.5237;
   constexpr double SCALE_HEIGHT = 11000;
-  WlkAtmospherePreset p = defaults();
+  Preset p = defaults();
   p.planet.radius = 3.3895e6f;
   assign(p.planet.groundAlbedo, {0.25f, 0.13f, 0.06f});  // rounded, between bright and dark regions
   const double wavelengths_um[3] = {0.68, 0.55, 0.44};
@@ -88,7 +103,7 @@ WlkAtmospherePreset mars() {
   return p;
 }
 
-WlkAtmospherePreset presetOf(uint32_t preset) {
+Preset presetOf(uint32_t preset) {
   switch (preset) {
     // Clean continental air: albedo 0.972 at 550 nm (OPAC). Scale height: Elterman 1968.
     case WLK_ATMOSPHERE_EARTH_CLEAR:
@@ -102,20 +117,62 @@ WlkAtmospherePreset presetOf(uint32_t preset) {
     case WLK_ATMOSPHERE_MARS:
       return mars();
     default:
-      fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_ATMOSPHERE_PRESET, "preset",
-           "preset is %u, expected [0, %d]", preset, int{WLK_ATMOSPHERE_MARS});
+      fail(WLK_ERROR_INVALID_ARGUMENT, 0, "preset", "preset is %u, expected [0, %d]", preset,
+           int{WLK_ATMOSPHERE_MARS});
   }
+}
+
+// All but what wlkInitStruct has written of the header, as far as the caller's structure goes.
+template <typename T>
+void overwrite(const T& value, uint32_t structSize, void* structure) {
+  constexpr size_t HEADER = sizeof(WlkPlanet::sType) + sizeof(WlkPlanet::structSize);
+  const auto* from = reinterpret_cast<const char*>(&value);
+  std::memcpy(static_cast<char*>(structure) + HEADER, from + HEADER,
+              std::min<size_t>(structSize, sizeof value) - HEADER);
 }
 
 }  // namespace
 
-WlkResult wlkGetAtmospherePreset(uint32_t preset, WlkAtmospherePreset* atmosphere) {
+WlkResult wlkInitPresetStruct(uint32_t preset, uint32_t sType, uint32_t structSize,
+                              void* structure) {
   return guarded([&] {
-    checkOutput(atmosphere, WLK_STRUCT_ATMOSPHERE_PRESET, sizeof *atmosphere);
-    WlkAtmospherePreset value = presetOf(preset);
-    value.structSize = atmosphere->structSize;
-    value.next = nullptr;
-    *atmosphere = value;
-    return WLK_SUCCESS;
+    const Preset value = presetOf(preset);
+    switch (sType) {
+      case WLK_STRUCT_PLANET:
+      case WLK_STRUCT_SKY:
+      case WLK_STRUCT_ABSORBER:
+      case WLK_STRUCT_FOG:
+      case WLK_STRUCT_MEDIUM_INFO:
+      case WLK_STRUCT_LIGHT:
+        break;
+      default:
+        fail(WLK_ERROR_UNKNOWN_STRUCT, sType, "sType", "sType %u is no part of an atmosphere",
+             sType);
+    }
+    const WlkResult result = wlkInitStruct(sType, structSize, structure);
+    if (result < 0) {
+      return result;
+    }
+    switch (sType) {
+      case WLK_STRUCT_PLANET:
+        overwrite(value.planet, structSize, structure);
+        break;
+      case WLK_STRUCT_SKY:
+        overwrite(value.sky, structSize, structure);
+        break;
+      case WLK_STRUCT_ABSORBER:
+        overwrite(value.absorber, structSize, structure);
+        break;
+      case WLK_STRUCT_FOG:
+        overwrite(value.haze, structSize, structure);
+        break;
+      case WLK_STRUCT_MEDIUM_INFO:
+        overwrite(value.hazeMedium, structSize, structure);
+        break;
+      default:
+        overwrite(value.sun, structSize, structure);
+        break;
+    }
+    return WlkResult{WLK_SUCCESS};
   });
 }

@@ -230,7 +230,7 @@ WlkResult wlkVulkanGetShadowMap(WlkContext context, WlkShadowMap map, WlkShadowM
     value.sType = state->sType;
     value.structSize = state->structSize;
     value.next = nullptr;
-    value.pass.gpuTime_ns = from.gpuTime_ns;
+    value.gpuTime_ns = from.gpuTime_ns;
     std::memcpy(state, &value, sizeof value);
     return WLK_SUCCESS;
   });

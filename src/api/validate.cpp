@@ -28,8 +28,6 @@ const char* structName(uint32_t sType) {
       return "WlkAbsorber";
     case WLK_STRUCT_AMBIENT:
       return "WlkAmbient";
-    case WLK_STRUCT_ATMOSPHERE_PRESET:
-      return "WlkAtmospherePreset";
     case WLK_STRUCT_MEDIUM_INFO:
       return "WlkMediumInfo";
     case WLK_STRUCT_MEDIUM_OPTICS:

@@ -240,12 +240,16 @@ WlkResult wlkSetQuality(WlkContext context, WlkView view, const WlkQuality* qual
 }
 
 WlkResult wlkGetFrameStats(WlkContext context, WlkView view, WlkFrameStats* stats,
-                           uint32_t* passCount, WlkPassStats* passes) {
+                           uint32_t* passCount, uint32_t stride, WlkPassStats* passes) {
   return guarded([&]() -> WlkResult {
     WlkContext_T& c = checkContext(context);
     ViewState& state = c.view(view);
     checkOutput(stats, WLK_STRUCT_FRAME_STATS, sizeof *stats);
     checkPointer(passCount, "passCount");
+    if (passes != nullptr && stride < sizeof(WlkPassStats)) {
+      fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_FRAME_STATS, "stride",
+           "stride is %u, expected at least %zu", stride, sizeof(WlkPassStats));
+    }
     if (state.lastFrame == 0) {
       return WLK_NOT_READY;
     }
@@ -264,12 +268,13 @@ WlkResult wlkGetFrameStats(WlkContext context, WlkView view, WlkFrameStats* stat
     *passCount = available;
     if (passes != nullptr) {
       for (uint32_t i = 0; i < std::min(room, available); ++i) {
-        passes[i] = state.record.passes[i];
+        WlkPassStats pass = state.record.passes[i];
         for (const PassTime& time : state.record.times) {
-          if (time.pass == passes[i].pass && time.volumeId == passes[i].volume.id) {
-            passes[i].gpuTime_ns = time.nanoseconds;
+          if (time.pass == pass.pass && time.volumeId == pass.volume.id) {
+            pass.gpuTime_ns = time.nanoseconds;
           }
         }
+        std::memcpy(reinterpret_cast<char*>(passes) + size_t{i} * stride, &pass, sizeof pass);
       }
     }
     return room < available ? WLK_INCOMPLETE : WLK_SUCCESS;

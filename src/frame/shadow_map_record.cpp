@@ -100,7 +100,7 @@ class ShadowRecorder {
       findPipelines();
       record();
     }
-    result_.pass.reason = reason;
+    result_.reason = reason;
     result_.descriptorWrites = bindings_.writes();
     map_.last = result_;
     map_.lastFrame = in_.frameIndex;
@@ -110,8 +110,6 @@ class ShadowRecorder {
   void start() {
     result_ = {};
     result_.frameIndex = in_.frameIndex;
-    std::snprintf(result_.pass.name, sizeof result_.pass.name, "shadow map");
-    result_.pass.pass = WLK_PASS_SHADOW_MAP;
     glm::dvec3 toLight = in_.up;
     if (in_.light != nullptr) {
       toLight = glm::normalize(
@@ -218,7 +216,7 @@ class ShadowRecorder {
     vk_.CmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, r_.queries,
                            2 * in_.slot + 1);
     r_.slots[in_.slot].frameIndex = in_.frameIndex;
-    result_.pass.recorded = 1;
+    result_.recorded = 1;
     map_.image = target_.image;
     std::swap(r_.key, now_);
     if (external_) {
@@ -264,8 +262,8 @@ class ShadowRecorder {
     vk_.CmdPushConstants(commands_, pipelines_.shadowLayout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                          sizeof push_, &push_);
     vk_.CmdDispatch(commands_, groups(width), groups(height), 1);
-    result_.pass.commands += 1;
-    result_.pass.invocations += uint64_t{64} * groups(width) * groups(height);
+    result_.commands += 1;
+    result_.invocations += uint64_t{64} * groups(width) * groups(height);
   }
 
   void barrier(VkPipelineStageFlags2 fromStage, VkAccessFlags2 fromAccess,

@@ -123,7 +123,10 @@ bool recordViewShadow(const vk::Device& device, const vk::Pipelines& pipelines,
     recordShadowMap(device, pipelines, commands, r.shadow, input, target, false);
     r.shadowImage.layout = SAMPLED.layout;
     const WlkShadowMapState& state = r.shadow.last;
-    stats = state.pass;
+    stats.reason = state.reason;
+    stats.recorded = state.recorded;
+    stats.commands = state.commands;
+    stats.invocations = state.invocations;
     view.record.stats.dispatches += stats.commands;
     view.record.stats.barriers += state.barriers;
     view.record.stats.descriptorWrites += state.descriptorWrites;

@@ -12,6 +12,8 @@
 
 #define INIT(sType, structure) \
   EXPECT(WLK_SUCCESS, wlkInitStruct((sType), sizeof(structure), &(structure)))
+#define PRESET(type, value) \
+  EXPECT(WLK_SUCCESS, wlkInitPresetStruct(WLK_ATMOSPHERE_MARS, type, sizeof(value), &(value)))
 #define EXPECT(expected, call) expectResult(expected, call, #call, __LINE__)
 #define REQUIRE(condition) require(condition, #condition, __LINE__)
 
@@ -113,22 +115,32 @@ static void firstHeaders(WlkContext context) {
 }
 
 static void atmosphere(WlkContext context) {
-  WlkAtmospherePreset preset;
+  WlkPlanet planet;
+  WlkSky sky;
+  WlkAbsorber gas;
+  WlkFog haze;
+  WlkMediumInfo dust;
+  WlkLight sun;
   WlkLight moon;
   const float toMoon[3] = {0.6f, 0.8f, 0.0f};
-  INIT(WLK_STRUCT_ATMOSPHERE_PRESET, preset);
   INIT(WLK_STRUCT_LIGHT, moon);
-  EXPECT(WLK_ERROR_INVALID_ARGUMENT, wlkGetAtmospherePreset(4, &preset));
-  EXPECT(WLK_SUCCESS, wlkGetAtmospherePreset(WLK_ATMOSPHERE_MARS, &preset));
-  REQUIRE(preset.sun.sType == WLK_STRUCT_LIGHT && preset.sun.structSize == sizeof preset.sun);
-  EXPECT(WLK_SUCCESS, wlkSetPlanet(context, &preset.planet));
-  EXPECT(WLK_SUCCESS, wlkSetSky(context, &preset.sky));
-  EXPECT(WLK_SUCCESS, wlkSetAbsorber(context, &preset.absorber));
-  EXPECT(WLK_SUCCESS, wlkCreateMedium(context, &preset.hazeMedium, &preset.haze.medium));
-  EXPECT(WLK_SUCCESS, wlkSetFog(context, &preset.haze));
-  EXPECT(WLK_SUCCESS, wlkDestroyMedium(context, preset.haze.medium));
-  EXPECT(WLK_ERROR_INVALID_HANDLE, wlkSetFog(context, &preset.haze));
-  EXPECT(WLK_SUCCESS, wlkInitMoon(preset.sun.direction, toMoon, preset.sun.irradiance, &moon));
+  EXPECT(WLK_ERROR_INVALID_ARGUMENT,
+         wlkInitPresetStruct(4, WLK_STRUCT_PLANET, sizeof planet, &planet));
+  PRESET(WLK_STRUCT_PLANET, planet);
+  PRESET(WLK_STRUCT_SKY, sky);
+  PRESET(WLK_STRUCT_ABSORBER, gas);
+  PRESET(WLK_STRUCT_FOG, haze);
+  PRESET(WLK_STRUCT_MEDIUM_INFO, dust);
+  PRESET(WLK_STRUCT_LIGHT, sun);
+  REQUIRE(sun.sType == WLK_STRUCT_LIGHT && sun.structSize == sizeof sun);
+  EXPECT(WLK_SUCCESS, wlkSetPlanet(context, &planet));
+  EXPECT(WLK_SUCCESS, wlkSetSky(context, &sky));
+  EXPECT(WLK_SUCCESS, wlkSetAbsorber(context, &gas));
+  EXPECT(WLK_SUCCESS, wlkCreateMedium(context, &dust, &haze.medium));
+  EXPECT(WLK_SUCCESS, wlkSetFog(context, &haze));
+  EXPECT(WLK_SUCCESS, wlkDestroyMedium(context, haze.medium));
+  EXPECT(WLK_ERROR_INVALID_HANDLE, wlkSetFog(context, &haze));
+  EXPECT(WLK_SUCCESS, wlkInitMoon(sun.direction, toMoon, sun.irradiance, &moon));
   EXPECT(WLK_SUCCESS, wlkSetLights(context, 1, sizeof moon, &moon));
   EXPECT(WLK_SUCCESS, wlkSetAbsorber(context, NULL));
   EXPECT(WLK_SUCCESS, wlkSetAmbient(context, NULL));
@@ -292,7 +304,7 @@ static void deviceFunctions(WlkContext context) {
   REQUIRE(wlkSetQuality(context, view, &quality) < 0);
   REQUIRE(wlkRenderHeadless(context, view, NULL) < 0);
   REQUIRE(wlkReadback(context, view, &image) < 0);
-  REQUIRE(wlkGetFrameStats(context, view, &stats, &passCount, NULL) < 0);
+  REQUIRE(wlkGetFrameStats(context, view, &stats, &passCount, sizeof(WlkPassStats), NULL) < 0);
   REQUIRE(wlkDestroyView(context, view) < 0);
   REQUIRE(wlkVulkanSetVolumeImage(context, volume, 0, NULL) < 0);
   REQUIRE(wlkVulkanForgetImage(context, VK_NULL_HANDLE) < 0);

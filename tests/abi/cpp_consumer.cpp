@@ -91,11 +91,11 @@ static void errorsNameTheField() {
 
 int main() {
   makeSetsTheHead<WlkErrorInfo, WlkContextInfo, WlkHeadlessInfo, WlkCapabilities, WlkPlanet, WlkSky,
-                  WlkLight, WlkFog, WlkAbsorber, WlkAmbient, WlkAtmospherePreset, WlkMediumInfo,
-                  WlkMediumOptics, WlkVolumeInfo, WlkVolumeUpload, WlkVolumeBricks, WlkVolumeState,
-                  WlkViewInfo, WlkCamera, WlkQuality, WlkQualityState, WlkFrameInfo,
-                  WlkHeadlessTargets, WlkImageData, WlkFrameStats, WlkRayBatch, WlkPhaseQuery,
-                  WlkSkyMapQuery, WlkVulkanDeviceInfo, WlkVulkanRequirements, WlkVulkanImage,
+                  WlkLight, WlkFog, WlkAbsorber, WlkAmbient, WlkMediumInfo, WlkMediumOptics,
+                  WlkVolumeInfo, WlkVolumeUpload, WlkVolumeBricks, WlkVolumeState, WlkViewInfo,
+                  WlkCamera, WlkQuality, WlkQualityState, WlkFrameInfo, WlkHeadlessTargets,
+                  WlkImageData, WlkFrameStats, WlkRayBatch, WlkPhaseQuery, WlkSkyMapQuery,
+                  WlkVulkanDeviceInfo, WlkVulkanRequirements, WlkVulkanImage,
                   WlkVulkanViewTargets>();
   movesOnly<welkin::Context>();
   movesOnly<welkin::Medium>();

@@ -70,6 +70,7 @@ def growing(text):
     for _, body in re.findall(r"typedef struct (\w+) \{(.*?)\} \1;", text, flags=re.S):
         if re.search(r"\w*[sS]tride;", body):
             yield from re.findall(r"const (Wlk\w+)\s*\*\s*\w+;", body)
+    yield from re.findall(r"uint32_t stride,\s*(?:const )?(Wlk\w+)\*", text)
 
 
 def fixed(text):

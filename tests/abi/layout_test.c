@@ -123,15 +123,6 @@ AT(WlkMediumInfo, userPhase, 64);
 AT(WlkMediumInfo, userCount, 72);
 AT(WlkMediumInfo, reserved0, 76);
 
-SIZE(WlkAtmospherePreset, 368);
-HEAD(WlkAtmospherePreset);
-AT(WlkAtmospherePreset, planet, 16);
-AT(WlkAtmospherePreset, sky, 88);
-AT(WlkAtmospherePreset, absorber, 120);
-AT(WlkAtmospherePreset, haze, 160);
-AT(WlkAtmospherePreset, hazeMedium, 216);
-AT(WlkAtmospherePreset, sun, 296);
-
 SIZE(WlkMediumOptics, 96);
 HEAD(WlkMediumOptics);
 AT(WlkMediumOptics, extinctionEfficiency, 16);
@@ -406,15 +397,18 @@ AT(WlkShadowMapInfo, extent, 56);
 AT(WlkShadowMapInfo, maxSamples, 72);
 AT(WlkShadowMapInfo, reserved0, 76);
 
-SIZE(WlkShadowMapState, 240);
+SIZE(WlkShadowMapState, 160);
 HEAD(WlkShadowMapState);
 AT(WlkShadowMapState, frameIndex, 16);
 AT(WlkShadowMapState, mapFromWorld, 24);
 AT(WlkShadowMapState, volumes, 120);
 AT(WlkShadowMapState, barriers, 124);
 AT(WlkShadowMapState, descriptorWrites, 128);
-AT(WlkShadowMapState, reserved0, 132);
-AT(WlkShadowMapState, pass, 136);
+AT(WlkShadowMapState, recorded, 132);
+AT(WlkShadowMapState, reason, 136);
+AT(WlkShadowMapState, commands, 140);
+AT(WlkShadowMapState, invocations, 144);
+AT(WlkShadowMapState, gpuTime_ns, 152);
 
 VALUE(WLK_SUCCESS, 0); VALUE(WLK_NOT_READY, 1); VALUE(WLK_INCOMPLETE, 2);
 VALUE(WLK_ERROR_INVALID_ARGUMENT, -1); VALUE(WLK_ERROR_INVALID_HANDLE, -2);
@@ -428,8 +422,7 @@ VALUE(WLK_ERROR_NO_DEVICE, -15); VALUE(WLK_ERROR_INTERNAL, -16); VALUE(WLK_STRUC
 VALUE(WLK_STRUCT_CONTEXT_INFO, 2); VALUE(WLK_STRUCT_HEADLESS_INFO, 3);
 VALUE(WLK_STRUCT_CAPABILITIES, 4); VALUE(WLK_STRUCT_PLANET, 10); VALUE(WLK_STRUCT_SKY, 11);
 VALUE(WLK_STRUCT_LIGHT, 12); VALUE(WLK_STRUCT_FOG, 13); VALUE(WLK_STRUCT_ABSORBER, 14);
-VALUE(WLK_STRUCT_ATMOSPHERE_PRESET, 15); VALUE(WLK_STRUCT_AMBIENT, 16);
-VALUE(WLK_STRUCT_MEDIUM_INFO, 20); VALUE(WLK_STRUCT_VOLUME_INFO, 21);
+VALUE(WLK_STRUCT_AMBIENT, 16); VALUE(WLK_STRUCT_MEDIUM_INFO, 20); VALUE(WLK_STRUCT_VOLUME_INFO, 21);
 VALUE(WLK_STRUCT_VOLUME_UPLOAD, 22); VALUE(WLK_STRUCT_MEDIUM_OPTICS, 23);
 VALUE(WLK_STRUCT_VOLUME_BRICKS, 24); VALUE(WLK_STRUCT_VOLUME_STATE, 25);
 VALUE(WLK_STRUCT_VIEW_INFO, 30); VALUE(WLK_STRUCT_CAMERA, 31); VALUE(WLK_STRUCT_QUALITY, 32);

@@ -43,10 +43,12 @@ host::Image World::read(WlkView view) const {
 FrameCounts World::counts(WlkView view) const {
   auto stats = host::make<WlkFrameStats>();
   uint32_t count = 0;
-  host::check(wlkGetFrameStats(context_.get(), view, &stats, &count, nullptr), "wlkGetFrameStats");
-  std::vector<WlkPassStats> passes(count);
-  host::check(wlkGetFrameStats(context_.get(), view, &stats, &count, passes.data()),
+  host::check(wlkGetFrameStats(context_.get(), view, &stats, &count, sizeof(WlkPassStats), nullptr),
               "wlkGetFrameStats");
+  std::vector<WlkPassStats> passes(count);
+  host::check(
+      wlkGetFrameStats(context_.get(), view, &stats, &count, sizeof(WlkPassStats), passes.data()),
+      "wlkGetFrameStats");
   FrameCounts counts;
   counts.dispatches = stats.dispatches;
   counts.draws = stats.draws;

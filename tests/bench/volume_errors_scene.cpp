@@ -245,10 +245,13 @@ VolumeFrame VolumeWorld::render(const VolumeShot& shot) {
   frame.cpu_ms = processClock_ms() - begin;
   auto stats = host::make<WlkFrameStats>();
   uint32_t count = 0;
-  host::check(wlkGetFrameStats(context_.get(), view_, &stats, &count, nullptr), "wlkGetFrameStats");
+  host::check(
+      wlkGetFrameStats(context_.get(), view_, &stats, &count, sizeof(WlkPassStats), nullptr),
+      "wlkGetFrameStats");
   std::vector<WlkPassStats> passes(count);
-  host::check(wlkGetFrameStats(context_.get(), view_, &stats, &count, passes.data()),
-              "wlkGetFrameStats");
+  host::check(
+      wlkGetFrameStats(context_.get(), view_, &stats, &count, sizeof(WlkPassStats), passes.data()),
+      "wlkGetFrameStats");
   for (const WlkPassStats& pass : passes) {
     frame.lightComputed |= pass.pass == WLK_PASS_VOLUME_LIGHT && pass.recorded != 0 &&
                            pass.reason != WLK_REASON_UNCHANGED;

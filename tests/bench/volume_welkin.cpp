@@ -114,9 +114,11 @@ void WelkinVolume::record(VkCommandBuffer commands) {
 
 std::vector<WlkPassStats> WelkinVolume::passes(size_t view, WlkFrameStats& stats) const {
   uint32_t count = 0;
-  welkin::check(wlkGetFrameStats(context_, views_[view], &stats, &count, nullptr));
+  welkin::check(
+      wlkGetFrameStats(context_, views_[view], &stats, &count, sizeof(WlkPassStats), nullptr));
   std::vector<WlkPassStats> passes(count);
-  welkin::check(wlkGetFrameStats(context_, views_[view], &stats, &count, passes.data()));
+  welkin::check(wlkGetFrameStats(context_, views_[view], &stats, &count, sizeof(WlkPassStats),
+                                 passes.data()));
   return passes;
 }
 

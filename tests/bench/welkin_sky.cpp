@@ -76,9 +76,10 @@ void WelkinSky::record(VkCommandBuffer commands) {
 GpuCounts WelkinSky::counts() const {
   auto stats = welkin::make<WlkFrameStats>();
   uint32_t count = 0;
-  welkin::check(wlkGetFrameStats(context_, view_, &stats, &count, nullptr));
+  welkin::check(wlkGetFrameStats(context_, view_, &stats, &count, sizeof(WlkPassStats), nullptr));
   std::vector<WlkPassStats> passes(count);
-  welkin::check(wlkGetFrameStats(context_, view_, &stats, &count, passes.data()));
+  welkin::check(
+      wlkGetFrameStats(context_, view_, &stats, &count, sizeof(WlkPassStats), passes.data()));
   GpuCounts counts;
   counts.dispatches = stats.dispatches;
   counts.bytes = stats.deviceMemory;

@@ -39,36 +39,34 @@ class ShadowMapBudget : public ::testing::Test {
   void expectCounted(const ShadowFrame& frame) {
     EXPECT_EQ(frame.state.barriers, frame.counts.barriers);
     EXPECT_EQ(frame.state.descriptorWrites, frame.counts.descriptorWrites);
-    EXPECT_EQ(frame.state.pass.commands, frame.counts.dispatches);
+    EXPECT_EQ(frame.state.commands, frame.counts.dispatches);
     // The view of an image that is new.
     EXPECT_EQ(frame.counts.created, images == s.images ? 0u : 1u);
     images = s.images;
     EXPECT_EQ(frame.counts.destroyed + frame.counts.allocated, 0u);
-    EXPECT_STREQ(frame.state.pass.name, "shadow map");
-    EXPECT_EQ(frame.state.pass.pass, uint32_t{WLK_PASS_SHADOW_MAP});
   }
   ShadowFrame expectRecorded(uint32_t reason, uint32_t volumes, const char* after) {
     const ShadowFrame frame = s.record();
     expectCounted(frame);
-    EXPECT_STREQ(wlkReasonName(frame.state.pass.reason), wlkReasonName(reason)) << after;
+    EXPECT_STREQ(wlkReasonName(frame.state.reason), wlkReasonName(reason)) << after;
     EXPECT_EQ(frame.state.volumes, volumes) << after;
     EXPECT_EQ(frame.counts.dispatches, FRAME + volumes) << after;
     EXPECT_EQ(frame.counts.barriers, BARRIERS + volumes) << after;
     EXPECT_EQ(frame.counts.copies, 1u) << after;
-    EXPECT_EQ(frame.state.pass.recorded, 1u) << after;
+    EXPECT_EQ(frame.state.recorded, 1u) << after;
     return frame;
   }
   ShadowFrame expectKept(const char* after) {
     const std::vector<float> texels = s.read();
     const ShadowFrame frame = s.record();
     expectCounted(frame);
-    EXPECT_STREQ(wlkReasonName(frame.state.pass.reason), "WLK_REASON_UNCHANGED") << after;
+    EXPECT_STREQ(wlkReasonName(frame.state.reason), "WLK_REASON_UNCHANGED") << after;
     EXPECT_EQ(frame.counts.dispatches, 0u) << after;
     EXPECT_EQ(frame.counts.barriers, 0u) << after;
     EXPECT_EQ(frame.counts.copies, 0u) << after;
     EXPECT_EQ(frame.counts.descriptorWrites, 0u) << after;
-    EXPECT_EQ(frame.state.pass.recorded, 0u) << after;
-    EXPECT_EQ(frame.state.pass.invocations, 0u) << after;
+    EXPECT_EQ(frame.state.recorded, 0u) << after;
+    EXPECT_EQ(frame.state.invocations, 0u) << after;
     EXPECT_EQ(s.read(), texels) << after;
     return frame;
   }
@@ -92,7 +90,7 @@ TEST_F(ShadowMapBudget, KeepsWhatHasNotChanged) {
   expectRecorded(WLK_REASON_NEEDED, 1, "the first frame");
   expectShadow("the first frame");
   const ShadowFrame kept = expectKept("nothing");
-  EXPECT_GT(kept.state.pass.gpuTime_ns, 0u);
+  EXPECT_GT(kept.state.gpuTime_ns, 0u);
   auto moved = info();
   moved.center[0] = 2;  // of texels of 125 m
   check(wlkVulkanSetShadowMap(s.scene.context, s.map, &moved));
@@ -202,7 +200,7 @@ TEST_F(ShadowMapBudget, WorkFollowsTheTexelsThatAVolumeCovers) {
   prepare();
   const ShadowFrame frame = expectRecorded(WLK_REASON_NEEDED, 1, "a small volume");
   const uint64_t image = uint64_t{SIZE} * SIZE;
-  EXPECT_EQ(frame.state.pass.invocations, image + 64u);
+  EXPECT_EQ(frame.state.invocations, image + 64u);
 }
 
 TEST_F(ShadowMapBudget, OtherLayoutsCostOneBarrier) {
@@ -214,7 +212,7 @@ TEST_F(ShadowMapBudget, OtherLayoutsCostOneBarrier) {
   s.described.after.layout = VK_IMAGE_LAYOUT_GENERAL;
   const ShadowFrame frame = s.record();
   expectCounted(frame);
-  EXPECT_STREQ(wlkReasonName(frame.state.pass.reason), "WLK_REASON_UNCHANGED");
+  EXPECT_STREQ(wlkReasonName(frame.state.reason), "WLK_REASON_UNCHANGED");
   EXPECT_EQ(frame.counts.barriers, 1u);
   EXPECT_EQ(frame.counts.dispatches, 0u);
   expectShadow("a change of layout");

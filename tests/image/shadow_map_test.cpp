@@ -120,7 +120,7 @@ TEST_F(ShadowMapTruth, OfATurnedBoxIsItsChordAtAnySun) {
   for (const auto& [elevation, azimuth] : SUNS) {
     s.scene.setSun(elevation, azimuth);
     const WlkShadowMapState state = s.record().state;
-    EXPECT_STREQ(wlkReasonName(state.pass.reason), "WLK_REASON_NEEDED");
+    EXPECT_STREQ(wlkReasonName(state.reason), "WLK_REASON_NEEDED");
     const std::vector<float> map = s.read();
     const Point toSun = towardsSun(elevation, azimuth);
     size_t shaded = 0;

@@ -58,7 +58,7 @@ Calls viewCalls() {
           [](WlkContext c, uint64_t id) {
             auto stats = make<WlkFrameStats>();
             uint32_t count = 0;
-            return wlkGetFrameStats(c, {id}, &stats, &count, nullptr);
+            return wlkGetFrameStats(c, {id}, &stats, &count, sizeof(WlkPassStats), nullptr);
           },
           [](WlkContext c, uint64_t id) {
             auto estimate = make<WlkErrorEstimate>();

@@ -277,9 +277,11 @@ TEST(Limits, CallsThatDoNotFitTheModeOrTheStateSayWhich) {
   EXPECT_EQ(wlkReadback(scene.context, fresh, &image), WLK_NOT_READY);
   auto stats = make<WlkFrameStats>();
   uint32_t count = 0;
-  EXPECT_EQ(wlkGetFrameStats(scene.context, fresh, &stats, &count, nullptr), WLK_NOT_READY);
-  EXPECT_FAILS(wlkGetFrameStats(scene.context, fresh, &stats, nullptr, nullptr),
-               WLK_ERROR_INVALID_ARGUMENT, "passCount");
+  EXPECT_EQ(wlkGetFrameStats(scene.context, fresh, &stats, &count, sizeof(WlkPassStats), nullptr),
+            WLK_NOT_READY);
+  EXPECT_FAILS(
+      wlkGetFrameStats(scene.context, fresh, &stats, nullptr, sizeof(WlkPassStats), nullptr),
+      WLK_ERROR_INVALID_ARGUMENT, "passCount");
   ASSERT_EQ(wlkDestroyView(scene.context, fresh), WLK_SUCCESS);
 
   CpuContext cpu;
@@ -322,12 +324,15 @@ TEST(Limits, StatisticsReportAnArrayThatIsTooShort) {
   victim.expectUnchanged();
   auto stats = make<WlkFrameStats>();
   uint32_t count = 0;
-  ASSERT_EQ(wlkGetFrameStats(scene.context, scene.view, &stats, &count, nullptr), WLK_SUCCESS);
+  ASSERT_EQ(
+      wlkGetFrameStats(scene.context, scene.view, &stats, &count, sizeof(WlkPassStats), nullptr),
+      WLK_SUCCESS);
   ASSERT_GE(count, 3u);
   std::vector<WlkPassStats> passes(count);
   std::memset(passes.data(), 0x7f, passes.size() * sizeof passes[0]);
   uint32_t room = 2;
-  EXPECT_EQ(wlkGetFrameStats(scene.context, scene.view, &stats, &room, passes.data()),
+  EXPECT_EQ(wlkGetFrameStats(scene.context, scene.view, &stats, &room, sizeof(WlkPassStats),
+                             passes.data()),
             WLK_INCOMPLETE);
   EXPECT_EQ(room, count);
   EXPECT_LE(passes[1].pass, uint32_t{WLK_PASS_COMPOSITE});

@@ -90,7 +90,7 @@ TEST_F(ShadowMapAbuse, FieldsOutOfRangeAreNamedAndChangeNothing) {
   const Info info = small();
   EXPECT_FAILS(wlkVulkanCreateShadowMap(s.scene.context, &info, nullptr),
                WLK_ERROR_INVALID_ARGUMENT, "map");
-  EXPECT_EQ(s.record().state.pass.reason, uint32_t{WLK_REASON_UNCHANGED});
+  EXPECT_EQ(s.record().state.reason, uint32_t{WLK_REASON_UNCHANGED});
 }
 
 TEST_F(ShadowMapAbuse, HandlesThatAreNoMapAreRefused) {

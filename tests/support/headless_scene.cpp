@@ -246,16 +246,16 @@ Image HeadlessScene::read(uint32_t image) const {
 WlkFrameStats SceneBuilder::stats() const {
   auto stats = make<WlkFrameStats>();
   uint32_t count = 0;
-  check(wlkGetFrameStats(context, view, &stats, &count, nullptr));
+  check(wlkGetFrameStats(context, view, &stats, &count, sizeof(WlkPassStats), nullptr));
   return stats;
 }
 
 std::vector<WlkPassStats> SceneBuilder::passes() const {
   auto stats = make<WlkFrameStats>();
   uint32_t count = 0;
-  check(wlkGetFrameStats(context, view, &stats, &count, nullptr));
+  check(wlkGetFrameStats(context, view, &stats, &count, sizeof(WlkPassStats), nullptr));
   std::vector<WlkPassStats> passes(count);
-  check(wlkGetFrameStats(context, view, &stats, &count, passes.data()));
+  check(wlkGetFrameStats(context, view, &stats, &count, sizeof(WlkPassStats), passes.data()));
   return passes;
 }
 

@@ -13,10 +13,19 @@ constexpr double TOP = 6e5;       // m: 54 scale heights of the thickest layer
 constexpr double DEPTH = 2e-3;    // documented error of wlkEvalTransmittance's optical depth
 constexpr double ROUNDED = 5e-3;  // of docs/atmospheres.md, three digits
 
-WlkAtmospherePreset presetOf(uint32_t which) {
-  auto preset = make<WlkAtmospherePreset>();
-  check(wlkGetAtmospherePreset(which, &preset));
-  return preset;
+struct Preset {
+  WlkPlanet planet;
+  WlkSky sky;
+  WlkAbsorber absorber;
+  WlkFog haze;
+  WlkMediumInfo hazeMedium;
+  WlkLight sun;
+};
+
+Preset presetOf(uint32_t which) {
+  return {welkin::makePreset<WlkPlanet>(which),     welkin::makePreset<WlkSky>(which),
+          welkin::makePreset<WlkAbsorber>(which),   welkin::makePreset<WlkFog>(which),
+          welkin::makePreset<WlkMediumInfo>(which), welkin::makePreset<WlkLight>(which)};
 }
 
 // Optical depth straight up from an altitude.
@@ -46,7 +55,7 @@ constexpr Documented DOCUMENTED[] = {
 TEST(AtmospherePreset, HasItsDocumentedVerticalOpticalDepths) {
   for (const Documented& expected : DOCUMENTED) {
     SCOPED_TRACE(expected.preset);
-    WlkAtmospherePreset p = presetOf(expected.preset);
+    Preset p = presetOf(expected.preset);
     const SkyScene scene;
     check(wlkSetPlanet(scene.context, &p.planet));
     check(wlkSetSky(scene.context, &p.sky));
@@ -70,7 +79,7 @@ TEST(AtmospherePreset, HasItsDocumentedVerticalOpticalDepths) {
 // number density times 11 km instead, 1 % more; cross-sections of Sneep and Ubachs 2005 follow
 // lambda^-4 but for the refractive index's 3 % between 680 and 440 nm, squared.
 TEST(AtmospherePreset, MarsScattersLikeItsColumnOfCarbonDioxide) {
-  const WlkAtmospherePreset p = presetOf(WLK_ATMOSPHERE_MARS);
+  const Preset p = presetOf(WLK_ATMOSPHERE_MARS);
   const double column = 636 / (44.01 * 1.66054e-27 * 3.71);
   const double green = static_cast<double>(p.sky.rayleighScattering[1]) * 11000 / column;
   EXPECT_NEAR(green, 1.16e-30, 0.03 * 1.16e-30);
@@ -83,7 +92,7 @@ TEST(AtmospherePreset, MarsScattersLikeItsColumnOfCarbonDioxide) {
 
 TEST(AtmospherePreset, EveryPartIsWhatItsFunctionTakes) {
   for (uint32_t which = 0; which < 4; ++which) {
-    WlkAtmospherePreset p = presetOf(which);
+    Preset p = presetOf(which);
     const SkyScene scene;
     EXPECT_EQ(wlkSetPlanet(scene.context, &p.planet), WLK_SUCCESS);
     EXPECT_EQ(wlkSetSky(scene.context, &p.sky), WLK_SUCCESS);
@@ -91,14 +100,38 @@ TEST(AtmospherePreset, EveryPartIsWhatItsFunctionTakes) {
     EXPECT_EQ(wlkCreateMedium(scene.context, &p.hazeMedium, &p.haze.medium), WLK_SUCCESS);
     EXPECT_EQ(wlkSetFog(scene.context, &p.haze), WLK_SUCCESS);
     EXPECT_EQ(wlkSetLights(scene.context, 1, sizeof p.sun, &p.sun), WLK_SUCCESS);
-    EXPECT_EQ(p.sType, uint32_t{WLK_STRUCT_ATMOSPHERE_PRESET});
-    EXPECT_EQ(p.structSize, sizeof p);
+    EXPECT_EQ(p.sun.sType, uint32_t{WLK_STRUCT_LIGHT});
+    EXPECT_EQ(p.sun.structSize, sizeof p.sun);
   }
-  auto p = make<WlkAtmospherePreset>();
-  EXPECT_EQ(wlkGetAtmospherePreset(4, &p), WLK_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(wlkGetAtmospherePreset(0, nullptr), WLK_ERROR_INVALID_ARGUMENT);
-  p.structSize = sizeof p - 8;
-  EXPECT_EQ(wlkGetAtmospherePreset(0, &p), WLK_ERROR_INVALID_ARGUMENT);
+}
+
+TEST(AtmospherePreset, RefusesWhatIsNoPartOfAnAtmosphere) {
+  WlkSky sky;
+  std::memset(&sky, 0x5a, sizeof sky);
+  const WlkSky before = sky;
+  EXPECT_EQ(wlkInitPresetStruct(4, WLK_STRUCT_SKY, sizeof sky, &sky), WLK_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(wlkInitPresetStruct(0, WLK_STRUCT_SKY, sizeof sky, nullptr),
+            WLK_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(wlkInitPresetStruct(0, WLK_STRUCT_SKY, sizeof sky - 8, &sky),
+            WLK_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(wlkInitPresetStruct(0, WLK_STRUCT_VIEW_INFO, sizeof sky, &sky),
+            WLK_ERROR_UNKNOWN_STRUCT);
+  EXPECT_EQ(std::memcmp(&sky, &before, sizeof sky), 0) << "a failed call has changed something";
+}
+
+// A caller's header may be newer and the structure longer: the surplus is zero.
+TEST(AtmospherePreset, FillsALongerStructureToItsEnd) {
+  struct Longer {
+    WlkSky sky;
+    uint64_t more;
+  };
+  Longer longer;
+  std::memset(&longer, 0x5a, sizeof longer);
+  check(wlkInitPresetStruct(WLK_ATMOSPHERE_MARS, WLK_STRUCT_SKY, sizeof longer, &longer));
+  const auto expected = welkin::makePreset<WlkSky>(WLK_ATMOSPHERE_MARS);
+  EXPECT_EQ(longer.sky.structSize, sizeof longer);
+  EXPECT_EQ(longer.sky.scaleHeight, expected.scaleHeight);
+  EXPECT_EQ(longer.more, 0u);
 }
 
 TEST(Absorber, TakesItsTriangleOfLightAndNoMore) {

@@ -95,6 +95,15 @@ def make(name, **fields):
     return structure
 
 
+def make_preset(preset, name):
+    """A part of an atmosphere, WLK_ATMOSPHERE_*."""
+    structure = ffi.new(name + " *")
+    result = lib.wlkInitPresetStruct(preset, struct_type(name), ffi.sizeof(name), structure)
+    if result < 0:
+        raise Error("wlkInitPresetStruct", result, "", name)
+    return structure
+
+
 def as_given(old, value):
     """Arrays take any sequence, but of their own length alone: cffi would leave the rest as is."""
     if isinstance(old, ffi.CData) and ffi.typeof(old).kind == "array":

@@ -2,7 +2,7 @@
 """Contexts with numpy arrays: the queries of the CPU, and pictures of a device of Welkin's own."""
 import numpy as np
 
-from .api import API_VERSION, check, constants, ffi, lib, make
+from .api import API_VERSION, check, constants, ffi, lib, make, make_preset
 
 
 def doubles(values, shape):
@@ -49,15 +49,13 @@ class Context:
     # ------------------------------------------------------------------------------- the scene
 
     def set_atmosphere(self, preset):
-        """One of WLK_ATMOSPHERE_*: planet, air, absorber and haze. Returns the preset."""
-        parts = make("WlkAtmospherePreset")
-        check(lib.wlkGetAtmospherePreset(preset, parts))
-        self.SetPlanet(ffi.addressof(parts.planet))
-        self.SetSky(ffi.addressof(parts.sky))
-        self.SetAbsorber(ffi.addressof(parts.absorber))
-        parts.haze.medium = self.create_medium(ffi.addressof(parts.hazeMedium))
-        self.SetFog(ffi.addressof(parts.haze))
-        return parts
+        """One of WLK_ATMOSPHERE_*: planet, air, absorber and haze."""
+        self.SetPlanet(make_preset(preset, "WlkPlanet"))
+        self.SetSky(make_preset(preset, "WlkSky"))
+        self.SetAbsorber(make_preset(preset, "WlkAbsorber"))
+        haze = make_preset(preset, "WlkFog")
+        haze.medium = self.create_medium(make_preset(preset, "WlkMediumInfo"))
+        self.SetFog(haze)
 
     def set_lights(self, *lights):
         array = ffi.new("WlkLight[]", [light[0] for light in lights])

@@ -12,6 +12,8 @@
 
 #define INIT(sType, structure) \
   EXPECT(WLK_SUCCESS, wlkInitStruct((sType), sizeof(structure), &(structure)))
+#define PRESET(type, value) \
+  EXPECT(WLK_SUCCESS, wlkInitPresetStruct(WLK_ATMOSPHERE_MARS, type, sizeof(value), &(value)))
 #define EXPECT(expected, call) expectResult(expected, call, #call, __LINE__)
 #define REQUIRE(condition) require(condition, #condition, __LINE__)
 
@@ -113,24 +115,35 @@ static void firstHeaders(WlkContext context) {
 }
 
 static void atmosphere(WlkContext context) {
-  WlkAtmospherePreset preset;
+  WlkPlanet planet;
+  WlkSky sky;
+  WlkAbsorber gas;
+  WlkFog haze;
+  WlkMediumInfo dust;
+  WlkLight sun;
   WlkLight moon;
   const float toMoon[3] = {0.6f, 0.8f, 0.0f};
-  INIT(WLK_STRUCT_ATMOSPHERE_PRESET, preset);
   INIT(WLK_STRUCT_LIGHT, moon);
-  EXPECT(WLK_ERROR_INVALID_ARGUMENT, wlkGetAtmospherePreset(4, &preset));
-  EXPECT(WLK_SUCCESS, wlkGetAtmospherePreset(WLK_ATMOSPHERE_MARS, &preset));
-  REQUIRE(preset.sun.sType == WLK_STRUCT_LIGHT && preset.sun.structSize == sizeof preset.sun);
-  EXPECT(WLK_SUCCESS, wlkSetPlanet(context, &preset.planet));
-  EXPECT(WLK_SUCCESS, wlkSetSky(context, &preset.sky));
-  EXPECT(WLK_SUCCESS, wlkSetAbsorber(context, &preset.absorber));
-  EXPECT(WLK_SUCCESS, wlkCreateMedium(context, &preset.hazeMedium, &preset.haze.medium));
-  EXPECT(WLK_SUCCESS, wlkSetFog(context, &preset.haze));
-  EXPECT(WLK_SUCCESS, wlkDestroyMedium(context, preset.haze.medium));
-  EXPECT(WLK_ERROR_INVALID_HANDLE, wlkSetFog(context, &preset.haze));
-  EXPECT(WLK_SUCCESS, wlkInitMoon(preset.sun.direction, toMoon, preset.sun.irradiance, &moon));
+  EXPECT(WLK_ERROR_INVALID_ARGUMENT,
+         wlkInitPresetStruct(4, WLK_STRUCT_PLANET, sizeof planet, &planet));
+  PRESET(WLK_STRUCT_PLANET, planet);
+  PRESET(WLK_STRUCT_SKY, sky);
+  PRESET(WLK_STRUCT_ABSORBER, gas);
+  PRESET(WLK_STRUCT_FOG, haze);
+  PRESET(WLK_STRUCT_MEDIUM_INFO, dust);
+  PRESET(WLK_STRUCT_LIGHT, sun);
+  REQUIRE(sun.sType == WLK_STRUCT_LIGHT && sun.structSize == sizeof sun);
+  EXPECT(WLK_SUCCESS, wlkSetPlanet(context, &planet));
+  EXPECT(WLK_SUCCESS, wlkSetSky(context, &sky));
+  EXPECT(WLK_SUCCESS, wlkSetAbsorber(context, &gas));
+  EXPECT(WLK_SUCCESS, wlkCreateMedium(context, &dust, &haze.medium));
+  EXPECT(WLK_SUCCESS, wlkSetFog(context, &haze));
+  EXPECT(WLK_SUCCESS, wlkDestroyMedium(context, haze.medium));
+  EXPECT(WLK_ERROR_INVALID_HANDLE, wlkSetFog(context, &haze));
+  EXPECT(WLK_SUCCESS, wlkInitMoon(sun.direction, toMoon, sun.irradiance, &moon));
   EXPECT(WLK_SUCCESS, wlkSetLights(context, 1, sizeof moon, &moon));
   EXPECT(WLK_SUCCESS, wlkSetAbsorber(context, NULL));
+  EXPECT(WLK_SUCCESS, wlkSetAmbient(context, NULL));
 }
 
 static void scene(WlkContext context) {
@@ -193,6 +206,8 @@ static void phaseQueries(WlkContext context, WlkMedium medium) {
   WlkMediumOptics optics;
   double phase[6], sampled[2], density[2];
   const double angle[2] = {0.0, 1.0}, random[2] = {0.25, 0.75};
+  const float water = 1e-3f;
+  float extinction = 0.0f;
 
   INIT(WLK_STRUCT_PHASE_QUERY, query);
   query.medium = medium;
@@ -205,6 +220,8 @@ static void phaseQueries(WlkContext context, WlkMedium medium) {
   INIT(WLK_STRUCT_MEDIUM_OPTICS, optics);
   EXPECT(WLK_SUCCESS, wlkGetMediumOptics(context, medium, &optics));
   REQUIRE(optics.asymmetry[0] > 0.8f && optics.effectiveRadius_um > 0.0f);
+  EXPECT(WLK_SUCCESS, wlkEvalWaterExtinction(context, medium, 1, &water, NULL, &extinction));
+  REQUIRE(extinction > 0.1f && extinction < 1.0f);
 }
 
 /* Media serve the phase queries of a host; volumes are for rendering only and need a device. */
@@ -235,6 +252,8 @@ static void objects(WlkContext context) {
   REQUIRE(wlkUploadVolume(context, volume, &upload) < 0);
   INIT(WLK_STRUCT_VOLUME_BRICKS, bricks);
   REQUIRE(wlkUploadVolumeBricks(context, volume, &bricks) < 0);
+  REQUIRE(wlkUploadVolumeDiameters(context, volume, &upload) < 0);
+  REQUIRE(wlkClearVolumeDiameters(context, volume) < 0);
   INIT(WLK_STRUCT_VOLUME_STATE, state);
   EXPECT(WLK_ERROR_INVALID_HANDLE, wlkGetVolumeState(context, volume, &state));
   EXPECT(WLK_ERROR_INVALID_HANDLE, wlkDestroyVolume(context, volume));
@@ -252,6 +271,8 @@ static void deviceFunctions(WlkContext context) {
   WlkFrameStats stats;
   WlkVulkanRequirements requirements;
   WlkVulkanViewTargets targets;
+  WlkLightShadow shadow;
+  WlkAerialPerspective aerial;
   WlkView view = {0};
   WlkVolume volume = {0};
   uint32_t passCount = 0;
@@ -267,6 +288,13 @@ static void deviceFunctions(WlkContext context) {
   INIT(WLK_STRUCT_IMAGE_DATA, image);
   INIT(WLK_STRUCT_FRAME_STATS, stats);
   INIT(WLK_STRUCT_VULKAN_VIEW_TARGETS, targets);
+  INIT(WLK_STRUCT_LIGHT_SHADOW, shadow);
+  REQUIRE(shadow.cascadeCount == 1 && shadow.clipFromWorld[3][15] == 1.0f);
+  targets.lightShadow = &shadow;
+  INIT(WLK_STRUCT_AERIAL_PERSPECTIVE, aerial);
+  REQUIRE(targets.aerialRadiance == NULL && targets.aerialTransmittance == NULL);
+  REQUIRE(aerial.width == 64 && aerial.height == 36 && aerial.depth == 32);
+  REQUIRE(aerial.exponent == 2.0f && aerial.distance == 32000.0f);
   frame.frameIndex = 1;
   EXPECT(WLK_ERROR_WRONG_STATE, wlkPrepare(context));
   EXPECT(WLK_ERROR_WRONG_STATE, wlkBeginFrame(context, &frame));
@@ -276,12 +304,15 @@ static void deviceFunctions(WlkContext context) {
   REQUIRE(wlkSetQuality(context, view, &quality) < 0);
   REQUIRE(wlkRenderHeadless(context, view, NULL) < 0);
   REQUIRE(wlkReadback(context, view, &image) < 0);
-  REQUIRE(wlkGetFrameStats(context, view, &stats, &passCount, NULL) < 0);
+  REQUIRE(wlkGetFrameStats(context, view, &stats, &passCount, sizeof(WlkPassStats), NULL) < 0);
   REQUIRE(wlkDestroyView(context, view) < 0);
   REQUIRE(wlkVulkanSetVolumeImage(context, volume, 0, NULL) < 0);
   REQUIRE(wlkVulkanForgetImage(context, VK_NULL_HANDLE) < 0);
   REQUIRE(wlkVulkanCmdUpdate(context, NULL) < 0);
   REQUIRE(wlkVulkanCmdRenderView(context, NULL, view, &targets) < 0);
+  EXPECT(WLK_ERROR_WRONG_STATE, wlkVulkanSetAerialPerspective(context, view, &aerial));
+  REQUIRE(targets.volumeDistance == NULL);
+  EXPECT(WLK_ERROR_WRONG_STATE, wlkVulkanSetVolumeDistance(context, view, 1));
 }
 
 int main(void) {

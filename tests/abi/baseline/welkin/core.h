@@ -62,7 +62,8 @@ enum {
   WLK_ERROR_OUT_OF_HOST_MEMORY = -6,
   /** Vulkan reported no device memory, or the resource exceeds a device limit's memory. */
   WLK_ERROR_OUT_OF_DEVICE_MEMORY = -7,
-  /** Vulkan reported a lost device; only destroy calls are useful from here on. */
+  /** Vulkan reported a lost device. From here on all that needs the device fails so without a call
+   *  of Vulkan; destroy calls free what they can. */
   WLK_ERROR_DEVICE_LOST = -8,
   /** A format that the role does not support. */
   WLK_ERROR_UNSUPPORTED_FORMAT = -9,
@@ -93,7 +94,7 @@ typedef enum WlkStructType {
   WLK_STRUCT_LIGHT = 12,
   WLK_STRUCT_FOG = 13,
   WLK_STRUCT_ABSORBER = 14,
-  WLK_STRUCT_ATMOSPHERE_PRESET = 15,
+  WLK_STRUCT_AMBIENT = 16,
   WLK_STRUCT_MEDIUM_INFO = 20,
   WLK_STRUCT_VOLUME_INFO = 21,
   WLK_STRUCT_VOLUME_UPLOAD = 22,
@@ -109,6 +110,7 @@ typedef enum WlkStructType {
   WLK_STRUCT_IMAGE_DATA = 42,
   WLK_STRUCT_FRAME_STATS = 43,
   WLK_STRUCT_ERROR_ESTIMATE = 44,
+  WLK_STRUCT_LIGHT_SHADOW = 47,
   WLK_STRUCT_RAY_BATCH = 50,
   WLK_STRUCT_PHASE_QUERY = 51,
   WLK_STRUCT_SKY_MAP_QUERY = 52,
@@ -117,7 +119,8 @@ typedef enum WlkStructType {
   WLK_STRUCT_VULKAN_IMAGE = 1002,
   WLK_STRUCT_VULKAN_VIEW_TARGETS = 1003,
   WLK_STRUCT_SHADOW_MAP_INFO = 1004,
-  WLK_STRUCT_SHADOW_MAP_STATE = 1005
+  WLK_STRUCT_SHADOW_MAP_STATE = 1005,
+  WLK_STRUCT_AERIAL_PERSPECTIVE = 1006
 } WlkStructType;
 
 /** Version of the library that is running, as WLK_MAKE_VERSION. [F] */
@@ -199,6 +202,11 @@ typedef struct WlkContextInfo {
   /** Log receiver. Default null: silent. */
   WlkLogCallback log;
   void* logUser;
+  /** Most device memory that the context allocates; what would exceed it fails with
+   *  OUT_OF_DEVICE_MEMORY before the driver is asked, and names this field. Memory is taken in
+   *  blocks of 16 MiB, and more for what is larger. bytes, 0: no limit. Default 0, also for callers
+   *  whose structSize ends before it. */
+  uint64_t deviceMemoryLimit;
 } WlkContextInfo;
 
 enum {
@@ -227,6 +235,7 @@ WLK_API void wlkDestroyContext(WlkContext context);
 
 enum { WLK_MODE_CPU = 0, WLK_MODE_HEADLESS = 1, WLK_MODE_ENGINE_DEVICE = 2 };
 
+/** What a context can do, and on which device. */
 typedef struct WlkCapabilities {
   uint32_t sType;
   uint32_t structSize;
@@ -246,7 +255,8 @@ typedef struct WlkCapabilities {
   char deviceName[WLK_MESSAGE_SIZE];
 } WlkCapabilities;
 
-WLK_API WlkResult wlkGetCapabilities(WlkContext context, WlkCapabilities* capabilities); /* [C] */
+/** Fills what the context can do. Errors: INVALID_HANDLE, INVALID_ARGUMENT. [C] */
+WLK_API WlkResult wlkGetCapabilities(WlkContext context, WlkCapabilities* capabilities);
 
 #ifdef __cplusplus
 }

@@ -21,6 +21,7 @@ typedef struct WlkRay {
   double length;
 } WlkRay;
 
+/** Rays for wlkEvalSky. */
 typedef struct WlkRayBatch {
   uint32_t sType;
   uint32_t structSize;
@@ -61,9 +62,6 @@ WLK_API WlkResult wlkEvalTransmittance(WlkContext context, const double from[3],
  *  and fog: 3 values. [C] */
 WLK_API WlkResult wlkEvalLight(WlkContext context, uint32_t lightIndex, const double position[3],
                                double irradiance[3]);
-
-/** Values of wlkEvalAmbient: 9 coefficients of 3 colours. */
-#define WLK_AMBIENT_VALUES 27
 
 /** Light from everywhere but the light itself at a world point, of all orders of scattering in
  *  air and fog and by the ground, as real spherical harmonics of its radiance: 9 coefficients,
@@ -140,6 +138,7 @@ enum {
   WLK_ORDER_POISSON = 2
 };
 
+/** Which directions of which medium, and after how many scatterings. */
 typedef struct WlkPhaseQuery {
   uint32_t sType;
   uint32_t structSize;

@@ -110,6 +110,47 @@ WLK_API WlkResult wlkInitMoon(const float toSun[3], const float toMoon[3],
 WLK_API WlkResult wlkSetLights(WlkContext context, uint32_t count, uint32_t stride,
                                const WlkLight* lights);
 
+/** Values of wlkEvalAmbient: 9 coefficients of 3 colours. */
+#define WLK_AMBIENT_VALUES 27
+
+/** Where the light comes from that falls on volumes from everywhere but the lights themselves. */
+enum {
+  /** There is none: what no light reaches is black. */
+  WLK_AMBIENT_OFF = 0,
+  /** From the context's own sky and ground, as wlkEvalSkyMap has them at the middle of each volume:
+   *  air, fog, all lights, all orders of scattering. For views that show the sky or the fog. */
+  WLK_AMBIENT_AUTOMATIC = 1,
+  /** From the engine: the fields of WlkAmbient. */
+  WLK_AMBIENT_GIVEN = 2
+};
+
+/** Light of sky and ground on volumes. It is followed through each volume from all directions, so
+ *  that what is hidden from the sky is dark, on a grid of cells half as fine as
+ *  WlkQuality::volumeCells says: with WLK_SCATTERING_ALL_ORDERS and FORWARD through all orders of
+ *  scattering, with WLK_SCATTERING_SINGLE not at all. Volumes do not take it from each other or
+ *  from the ground. */
+typedef struct WlkAmbient {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** WLK_AMBIENT_*. Default OFF, also for a context whose ambient light was never set. */
+  uint32_t mode;
+  uint32_t reserved0;
+  /** Of GIVEN: radiance from all directions above the horizontal plane through the volume's middle,
+   *  and below it. RGB, [0, 1e6], in the unit of the lights' irradiance per sr. Default 0. */
+  float sky[3];
+  float ground[3];
+  /** Of GIVEN: radiance that is added to them, as harmonics in the order and the axes of
+   *  wlkEvalAmbient; where their sum is negative, 0. [-1e6, 1e6]. Default 0. */
+  float harmonics[WLK_AMBIENT_VALUES];
+  uint32_t reserved1;
+} WlkAmbient;
+
+/** Sets the ambient light of volumes; null means OFF. From or to OFF needs wlkPrepare. AUTOMATIC
+ *  costs 4 ms of CPU time for each volume in a frame before which planet, air, lights or the
+ *  volume's place have changed. [C] Errors: INVALID_ARGUMENT (mode, sky, ground, harmonics). */
+WLK_API WlkResult wlkSetAmbient(WlkContext context, const WlkAmbient* ambient);
+
 enum {
   /** The type's choice: TABLE where there is one. */
   WLK_PHASE_DEFAULT = 0,
@@ -232,28 +273,15 @@ enum {
   WLK_ATMOSPHERE_MARS = 3
 };
 
-/** What an atmosphere is made of, each part as its wlkSet function or wlkCreateMedium takes it. Its
- *  structSize tells the layout of all parts. */
-typedef struct WlkAtmospherePreset {
-  uint32_t sType;
-  uint32_t structSize;
-  const void* next;
-  WlkPlanet planet;
-  WlkSky sky;
-  /** extinction 0 where there is no such gas. */
-  WlkAbsorber absorber;
-  /** `medium` is 0: create hazeMedium and set it. */
-  WlkFog haze;
-  WlkMediumInfo hazeMedium;
-  /** The sun as seen from there, straight up. `irradiance` is relative to that at the Earth: 1
-   *  there; multiply it by the engine's own value. */
-  WlkLight sun;
-} WlkAtmospherePreset;
-
-/** Writes one of WLK_ATMOSPHERE_*; the caller changes what it wants and sets what it needs. Nested
- *  structures are written with sType, structSize and next = null. [F]
- *  Errors: INVALID_ARGUMENT (preset, structSize), UNKNOWN_STRUCT. */
-WLK_API WlkResult wlkGetAtmospherePreset(uint32_t preset, WlkAtmospherePreset* atmosphere);
+/** As wlkInitStruct, with the values of an atmosphere (WLK_ATMOSPHERE_*) instead of the defaults.
+ * It consists of WLK_STRUCT_PLANET, SKY, ABSORBER (extinction 0 where there is no such gas), FOG
+ * (its haze or dust; `medium` is 0: create the next and set it), MEDIUM_INFO (what the haze is) and
+ * LIGHT (the sun as seen from there, straight up; `irradiance` is relative to that at the Earth, 1
+ * there: multiply it by the engine's own value). The caller changes what it wants and sets what it
+ * needs. [F] Errors: INVALID_ARGUMENT (preset; null, structSize too short), UNKNOWN_STRUCT (another
+ *  structure). */
+WLK_API WlkResult wlkInitPresetStruct(uint32_t preset, uint32_t sType, uint32_t structSize,
+                                      void* structure);
 
 /** What one particle of a medium does to light. RGB. */
 typedef struct WlkMediumOptics {
@@ -278,8 +306,8 @@ typedef struct WlkMediumOptics {
   uint32_t reserved0;
 } WlkMediumOptics;
 
-WLK_API WlkResult wlkGetMediumOptics(WlkContext context, WlkMedium medium,
-                                     WlkMediumOptics* optics); /* [C] */
+/** Fills a medium's optics. [C] Errors: INVALID_HANDLE, INVALID_ARGUMENT. */
+WLK_API WlkResult wlkGetMediumOptics(WlkContext context, WlkMedium medium, WlkMediumOptics* optics);
 
 /** Formats of volume data. */
 enum {
@@ -298,6 +326,7 @@ typedef struct WlkVolumeField {
   uint32_t reserved0;
 } WlkVolumeField;
 
+/** A box of voxels: how many, of what, and where. */
 typedef struct WlkVolumeInfo {
   uint32_t sType;
   uint32_t structSize;
@@ -355,6 +384,32 @@ typedef struct WlkVolumeUpload {
 WLK_API WlkResult wlkUploadVolume(WlkContext context, WlkVolume volume,
                                   const WlkVolumeUpload* upload);
 
+/** Diameters of one field's droplets per voxel, median in um, linear in their logarithm between
+ *  voxels: each sample of the eye's march then scatters towards the eye by its own phase function.
+ *  Extinction and albedo stay the field's (wlkEvalWaterExtinction makes extinction of water and
+ *  diameter). What light has scattered before keeps the medium's own diameter: give it the mean of
+ *  the volume (where it was 2.5 times as large as all voxels', pictures of optical depth 8 were up
+ *  to 6 % off with WLK_SCATTERING_FORWARD, 12 % with ALL_ORDERS). Values outside
+ *  of the type's range become its nearest; 0, negative values, NaN and infinities the medium's own
+ *  diameter. Needs all voxels at once, R32_FLOAT or R16_FLOAT, and a medium of cloud, fog, haze or
+ *  rain with the default spread. Of one field per volume: another field's replace them. The first
+ *  and those of another field need wlkPrepare, which makes 24 MiB of tables per volume and
+ *  scattering mode. [C] Errors: INVALID_ARGUMENT, UNSUPPORTED_FORMAT, OUT_OF_*, WRONG_STATE in CPU
+ *  mode. */
+WLK_API WlkResult wlkUploadVolumeDiameters(WlkContext context, WlkVolume volume,
+                                           const WlkVolumeUpload* diameters);
+/** The volume's droplets have their medium's diameter again; needs wlkPrepare if there were
+ *  others. [C] */
+WLK_API WlkResult wlkClearVolumeDiameters(WlkContext context, WlkVolume volume);
+
+/** Extinction (1/m, mean of the colours) of liquid water as droplets: 0.75 Q W / (density r),
+ *  where W is waterContent (kg/m^3, [0, 1000]), r the effective radius and Q the extinction
+ *  efficiency of diameter_um; values of these as in wlkUploadVolumeDiameters, null: the medium's
+ *  own. The medium as there. Upload the result with an extinctionScale of 1. [C] */
+WLK_API WlkResult wlkEvalWaterExtinction(WlkContext context, WlkMedium medium, uint32_t count,
+                                         const float* waterContent, const float* diameter_um,
+                                         float* extinction);
+
 /** All that one field holds, as bricks of 8 x 8 x 8 voxels; elsewhere it is 0. Brick (i, j, k) has
  *  the voxels 8 i to 8 i + 7 along x, and so on; voxels outside the volume are ignored. Values as
  *  in WlkVolumeUpload, kept as half floats: under 3e-8 they become 0. */
@@ -393,7 +448,10 @@ typedef struct WlkVolumeState {
   const void* next;
   /** Bricks of 8 x 8 x 8 voxels along x, y, z. */
   uint32_t bricks[3];
-  uint32_t reserved0;
+  /** 1 where eye rays leap over empty bricks, else 0. wlkPrepare decides: where something can be
+   *  met in under 40 % of the bricks, until it can in 80 %, and no field is an engine's image.
+   *  WLK_QUALITY_NO_SKIP does without; the picture is the same. */
+  uint32_t leaps;
   /** Bricks that hold a value above 0, those of all fields together. What is overwritten by parts
    *  of a brick counts as before. */
   uint64_t occupiedBricks;

@@ -43,6 +43,7 @@ enum {
   WLK_COLOR_SRGB = 1
 };
 
+/** A picture that is drawn again and again: its size, and how it reaches the engine's. */
 typedef struct WlkViewInfo {
   uint32_t sType;
   uint32_t structSize;
@@ -61,11 +62,14 @@ typedef struct WlkViewInfo {
   uint32_t reserved0;
 } WlkViewInfo;
 
-WLK_API WlkResult wlkCreateView(WlkContext context, const WlkViewInfo* info,
-                                WlkView* view); /* [C] */
+/** Creates a view with the default camera and quality; wlkPrepare before it is drawn. [C] Errors:
+ *  INVALID_ARGUMENT, UNSUPPORTED_FORMAT, MISSING_FEATURE (BLEND), WRONG_STATE in CPU mode and for
+ *  BLEND in headless mode, OUT_OF_HOST_MEMORY. */
+WLK_API WlkResult wlkCreateView(WlkContext context, const WlkViewInfo* info, WlkView* view);
 /** Changes size, composite mode, format or layers. Needs wlkPrepare. [C] */
 WLK_API WlkResult wlkUpdateView(WlkContext context, WlkView view, const WlkViewInfo* info);
-WLK_API WlkResult wlkDestroyView(WlkContext context, WlkView view); /* [C] */
+/** The memory is freed when no frame in flight uses it. [C] */
+WLK_API WlkResult wlkDestroyView(WlkContext context, WlkView view);
 
 /** Near, far, field of view, handedness, reversed and infinite depth follow from the matrix. */
 typedef struct WlkCamera {
@@ -116,7 +120,10 @@ enum {
   WLK_QUALITY_NO_SKIP = 1u << 0,
   /** Volumes cast shadows on air, fog and the bare planet, from the first light, as far as it is
    *  scattered once. */
-  WLK_QUALITY_VOLUME_SHADOWS = 1u << 1
+  WLK_QUALITY_VOLUME_SHADOWS = 1u << 1,
+  /** The engine's shadow map (WlkLightShadow), where one is given with a view's targets, does the
+   *  same: shafts of light. */
+  WLK_QUALITY_LIGHT_SHADOWS = 1u << 2
 };
 
 /** Who chooses between the lowest level and `level`. Controls other than LEVEL leave sliceCount,
@@ -141,7 +148,9 @@ typedef struct WlkQuality {
   uint32_t level;
   /** Slabs through each volume. 0 or [8, 2048]. Default 0. */
   uint32_t sliceCount;
-  /** Slabs per batch: 1 is the paper's algorithm. 0 or [1, sliceCount]. Default 0. */
+  /** Slabs per batch, whose light is computed in every frame: 1 is the paper's algorithm. 0: the
+   *  light of all slabs across the light is kept between frames and shared by the views, as far as
+   *  512 MiB hold it; else batches of the level. 0 or [1, sliceCount]. Default 0. */
   uint32_t batchSize;
   /** Texels along the light buffer's edge. 0 or [16, 2048]. Default 0. */
   uint32_t lightBufferSize;
@@ -248,6 +257,7 @@ WLK_API const char* wlkControlReasonName(uint32_t reason);
  *  Errors: WRONG_STATE in CPU mode, OUT_OF_*, DEVICE_LOST. */
 WLK_API WlkResult wlkPrepare(WlkContext context);
 
+/** Which frame begins, and which are over. */
 typedef struct WlkFrameInfo {
   uint32_t sType;
   uint32_t structSize;
@@ -262,6 +272,38 @@ typedef struct WlkFrameInfo {
  *  at 1. [C] Errors: FRAMES_IN_FLIGHT, INVALID_ARGUMENT, WRONG_STATE. */
 WLK_API WlkResult wlkBeginFrame(WlkContext context, const WlkFrameInfo* frame);
 
+#define WLK_MAX_SHADOW_CASCADES 4
+
+/** How the engine's shadow map of a light lies in the world: one map, or cascades, the finest
+ *  first. Every cascade is an orthographic view along the light; points belong to the first one
+ *  that contains them and are shadowed where the map holds something nearer to the light. Points
+ *  in none are lit. Shadows are those of opaque surfaces on air, fog and bare planet, as far as
+ *  light is scattered once; they take nothing from volumes. */
+typedef struct WlkLightShadow {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Layers of the map that are read, from the first on. [1, WLK_MAX_SHADOW_CASCADES], default 1.
+   */
+  uint32_t cascadeCount;
+  /** Index in wlkSetLights. [0, WlkCapabilities::maxLights - 1], default 0. A map is read if this
+   *  light is the brightest one on the volumes or, without any, the first one that reaches the air.
+   */
+  uint32_t light;
+  /** Where positions in clipFromWorld are counted from, for example the camera's position. World,
+   *  m, |x| <= 1e9. Default 0. */
+  double origin[3];
+  /** Per cascade, column-major: (world position - origin, 1) to Vulkan clip space: x and y in
+   *  [-1, 1], (-1, -1) at the outer corner of texel (0, 0), depth in [0, 1]. Affine and
+   *  invertible, |x| <= 1e9, lines of equal x and y within 30 degrees of the light's direction. It
+   *  tells whether depth is reversed. Default identity. */
+  float clipFromWorld[WLK_MAX_SHADOW_CASCADES][16];
+  /** Points up to this far behind the map's surface count as lit: half a texel's width on slopes
+   *  of 45 degrees. m along the light, [0, 1e6], default 0.1. */
+  float bias;
+  uint32_t reserved0;
+} WlkLightShadow;
+
 /** The engine's picture for wlkRenderHeadless. */
 typedef struct WlkHeadlessTargets {
   uint32_t sType;
@@ -271,10 +313,18 @@ typedef struct WlkHeadlessTargets {
   const float* color;
   /** width * height depth values in the camera's convention; null means nothing is there. */
   const float* depth;
+  /** A shadow map; null: none. Needs WLK_QUALITY_LIGHT_SHADOWS. Default null. */
+  const WlkLightShadow* lightShadow;
+  /** shadowWidth * shadowHeight * cascadeCount depth values, the cascades one after the other. */
+  const float* shadowDepth;
+  /** Texels of a cascade. [1, 8192]. */
+  uint32_t shadowWidth;
+  uint32_t shadowHeight;
 } WlkHeadlessTargets;
 
 /** Renders one frame of the view and waits for it. `targets` may be null. [C]
- *  Errors: WRONG_STATE outside headless mode, NOT_PREPARED, DEVICE_LOST. */
+ *  Errors: WRONG_STATE outside headless mode and for a shadow map without the quality's flag,
+ *  INVALID_ARGUMENT, NOT_PREPARED, OUT_OF_*, DEVICE_LOST. */
 WLK_API WlkResult wlkRenderHeadless(WlkContext context, WlkView view,
                                     const WlkHeadlessTargets* targets);
 
@@ -287,6 +337,7 @@ enum {
   WLK_IMAGE_TRANSMITTANCE = 2
 };
 
+/** Where a picture is copied to. */
 typedef struct WlkImageData {
   uint32_t sType;
   uint32_t structSize;
@@ -314,7 +365,14 @@ enum {
   /** Light inside a volume that was scattered before (WLK_SCATTERING_ALL_ORDERS). */
   WLK_PASS_VOLUME_LIGHT = 5,
   /** A map of the volumes' shadow: the engine's (welkin_vulkan.h), or the view's own. */
-  WLK_PASS_SHADOW_MAP = 6
+  WLK_PASS_SHADOW_MAP = 6,
+  /** Light of sky and ground inside a volume (wlkSetAmbient). */
+  WLK_PASS_VOLUME_AMBIENT = 7,
+  /** Aerial perspective for the engine's transparents (welkin_vulkan.h), its march through volumes
+   *  included. */
+  WLK_PASS_AERIAL_PERSPECTIVE = 8,
+  /** The volumes' mean distance per pixel (welkin_vulkan.h). */
+  WLK_PASS_VOLUME_DISTANCE = 9
 };
 
 /** Why a pass was recorded or not. */
@@ -350,6 +408,7 @@ typedef struct WlkPassStats {
   uint64_t gpuTime_ns;
 } WlkPassStats;
 
+/** What was recorded for a view's frame, and what the context holds. */
 typedef struct WlkFrameStats {
   uint32_t sType;
   uint32_t structSize;
@@ -363,15 +422,17 @@ typedef struct WlkFrameStats {
   /** Bytes of device memory and of host memory that the context holds. */
   uint64_t deviceMemory;
   uint64_t hostMemory;
-  /** Pixels of the newest finished frame whose value was not finite before the final guard. */
+  /** Pixels, and froxels of aerial perspective, of the newest finished frame whose value was not
+   *  finite before the final guard. */
   uint64_t nonFinitePixels;
 } WlkFrameStats;
 
 /** Statistics of the view's last recorded frame. `passCount` holds the room in `passes` and
- *  receives the number of passes; `passes` may be null. [C] NOT_READY before the first frame,
- *  INCOMPLETE if the array was too short. */
+ *  receives the number of passes; `stride` is the caller's sizeof(WlkPassStats); `passes` may be
+ *  null. [C] NOT_READY before the first frame, INCOMPLETE if the array was too short. Errors:
+ *  INVALID_ARGUMENT (stride too short). */
 WLK_API WlkResult wlkGetFrameStats(WlkContext context, WlkView view, WlkFrameStats* stats,
-                                   uint32_t* passCount, WlkPassStats* passes);
+                                   uint32_t* passCount, uint32_t stride, WlkPassStats* passes);
 
 /** "WLK_REASON_ZERO_DENSITY" and so on. [F] */
 WLK_API const char* wlkReasonName(uint32_t reason);

@@ -84,7 +84,7 @@ typedef struct WlkVulkanImage {
   const void* next;
   VkImage image;
   VkFormat format;
-  /** Pixels or voxels; depth 1 for 2-D images. */
+  /** Pixels or voxels; depth 1 for 2-D images, the number of layers for a shadow map. */
   uint32_t width;
   uint32_t height;
   uint32_t depth;
@@ -92,7 +92,7 @@ typedef struct WlkVulkanImage {
   WlkVulkanImageState after;
 } WlkVulkanImage;
 
-/** What a view reads and writes. Extents must be the view's. */
+/** What a view reads and writes. Extents must be the view's, except the shadow map's. */
 typedef struct WlkVulkanViewTargets {
   uint32_t sType;
   uint32_t structSize;
@@ -108,6 +108,23 @@ typedef struct WlkVulkanViewTargets {
   /** SEPARATE: written. Default null. */
   const WlkVulkanImage* radiance;
   const WlkVulkanImage* transmittance;
+  /** The engine's shadow map and where it lies; both or none. Needs WLK_QUALITY_LIGHT_SHADOWS.
+   *  Default null. */
+  const WlkLightShadow* lightShadow;
+  /** 2-D of any size, single-sampled, with at least lightShadow->cascadeCount layers (`depth`);
+   *  usage and formats as for `depth`. The image's first mip level is read. */
+  const WlkVulkanImage* shadowMap;
+  /** Aerial perspective (wlkVulkanSetAerialPerspective), 3-D, written in any mode: premultiplied
+   *  radiance, times preExposure and in the view's colours, and RGB transmittance; alpha 1. Of one
+   *  format, R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT. Both or neither; null: nothing is recorded
+   *  for it. Default null. */
+  const WlkVulkanImage* aerialRadiance;
+  const WlkVulkanImage* aerialTransmittance;
+  /** Distance of the volumes (wlkVulkanSetVolumeDistance), written in any mode. R: mean distance
+   *  from the eye at which they hide what lies behind them, along the ray, m; 0 where there are
+   *  none. G, of formats that have it: the part of the background that they hide, [0, 1].
+   *  R16_SFLOAT, R32_SFLOAT, R16G16_SFLOAT or R32G32_SFLOAT. Default null. */
+  const WlkVulkanImage* volumeDistance;
 } WlkVulkanViewTargets;
 
 /** Makes a field of a volume read the engine's own 3-D image instead of Welkin's copy; null goes
@@ -128,9 +145,47 @@ WLK_API WlkResult wlkVulkanCmdUpdate(WlkContext context, VkCommandBuffer command
 
 /** Records a view. Outside a render pass. Afterwards the command buffer's pipelines, descriptor
  *  sets, push constants and dynamic state are undefined. At most once per view and frame. [C]
- *  Errors: WRONG_STATE, NOT_PREPARED, INVALID_ARGUMENT, UNSUPPORTED_FORMAT. */
+ *  Errors: WRONG_STATE (also for a shadow map without the quality's flag), NOT_PREPARED,
+ *  INVALID_ARGUMENT, UNSUPPORTED_FORMAT. */
 WLK_API WlkResult wlkVulkanCmdRenderView(WlkContext context, VkCommandBuffer commandBuffer,
                                          WlkView view, const WlkVulkanViewTargets* targets);
+
+/* ------------------------------------------------------------------------- aerial perspective */
+
+/** Froxels of a view, for the engine's transparents: what air, fog and volumes put between the eye
+ *  and each of them, as the composite has it for an opaque pixel there. Columns go through the
+ *  middles of width x height equal parts of the picture; slice k = 0 .. depth - 1 lies at
+ *  distance * (k / (depth - 1))^exponent from the eye, along the ray. */
+typedef struct WlkAerialPerspective {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Columns across the picture. [1, 2048], default 64 x 36. */
+  uint32_t width;
+  uint32_t height;
+  /** Slices; the first is at the eye and says 0 and 1. [2, 1024], default 32. */
+  uint32_t depth;
+  /** 1: slices are equally far apart; larger: denser towards the eye. [1, 8], default 2. */
+  float exponent;
+  /** Of the last slice from the eye. m, [1, 1e7], default 32000. */
+  float distance;
+  uint32_t reserved0;
+} WlkAerialPerspective;
+
+/** Gives a view froxels, which wlkVulkanCmdRenderView writes to images that it gets; null takes
+ *  them away. Another size needs wlkPrepare, exponent and distance do not. [C] Errors:
+ *  INVALID_ARGUMENT, WRONG_STATE outside engine-device mode; LIMIT_EXCEEDED by wlkPrepare. */
+WLK_API WlkResult wlkVulkanSetAerialPerspective(WlkContext context, WlkView view,
+                                                const WlkAerialPerspective* aerial);
+
+/* --------------------------------------------------------------------- distance of the volumes */
+
+/** 1: wlkVulkanCmdRenderView may get an image for the volumes' distance, for reprojection and depth
+ *  of field; 0, as views begin: it may not. It is the integral of distance x transmittance x
+ *  extinction along the ray, up to the opaque surface, over that without the distance: air and fog
+ *  do not count, nor does with WLK_SCATTERING_ALL_ORDERS what forward peaks only turn aside. 1
+ *  needs wlkPrepare. [C] Errors: INVALID_ARGUMENT, WRONG_STATE outside engine-device mode. */
+WLK_API WlkResult wlkVulkanSetVolumeDistance(WlkContext context, WlkView view, uint32_t enabled);
 
 /* -------------------------------------------------------------------------------- shadow maps */
 
@@ -183,7 +238,8 @@ WLK_API WlkResult wlkVulkanCreateShadowMap(WlkContext context, const WlkShadowMa
 /** Changes it, for example where it lies. Only another size or content needs wlkPrepare. [C] */
 WLK_API WlkResult wlkVulkanSetShadowMap(WlkContext context, WlkShadowMap map,
                                         const WlkShadowMapInfo* info);
-WLK_API WlkResult wlkVulkanDestroyShadowMap(WlkContext context, WlkShadowMap map); /* [C] */
+/** Destroys the map, not the images it was written to. [C] */
+WLK_API WlkResult wlkVulkanDestroyShadowMap(WlkContext context, WlkShadowMap map);
 
 /** Writes the map to an image of its size (usage STORAGE), after wlkVulkanCmdUpdate and outside a
  *  render pass; at most once per map and frame. Where light, volumes, area and image are as they
@@ -207,10 +263,17 @@ typedef struct WlkShadowMapState {
   uint32_t volumes;
   uint32_t barriers;
   uint32_t descriptorWrites;
-  uint32_t reserved0;
-  /** `name`, `reason` and so on of the whole map: WLK_REASON_NEEDED, UNCHANGED, and for a map
-   *  without shadow NO_LIGHT, NOTHING_TO_DRAW (no volume), ZERO_DENSITY, OUTSIDE_VIEW. */
-  WlkPassStats pass;
+  /** 1 if commands were recorded, 0 if skipped. */
+  uint32_t recorded;
+  /** Of the whole map: WLK_REASON_NEEDED, UNCHANGED, and for a map without shadow NO_LIGHT,
+   *  NOTHING_TO_DRAW (no volume), ZERO_DENSITY, OUTSIDE_VIEW. */
+  uint32_t reason;
+  /** Dispatches recorded. */
+  uint32_t commands;
+  /** Shader invocations (threads) recorded. */
+  uint64_t invocations;
+  /** GPU time of the newest finished frame, ns; 0 before one finished. */
+  uint64_t gpuTime_ns;
 } WlkShadowMapState;
 
 /** State of the map in the frame that was recorded last. [C] NOT_READY before the first. */
