@@ -16,6 +16,7 @@
 #include "volume/slices.glsl"
 #include "volume/forward_scattering.glsl"
 #include "volume/canonical_slab.glsl"
+#include "surface/triangle.glsl"
 #include "surface/chord.glsl"
 #include "surface/tangent_slab.glsl"
 #include "surface/collector.glsl"
