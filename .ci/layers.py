@@ -54,7 +54,8 @@ RULES = [
     (r"samples/cli/.*", r"include/welkin/.*|samples/.*|tests/reference/.*", ANY),
     (r"samples/.*", r"include/welkin/.*|samples/.*", ANY),
     # These drive the SDK through the sample host's scenes and images.
-    (r"tests/(host|image|bench|budget)/.*", r"(src|tests|include|shaders|samples/common)/.*", ANY),
+    (r"tests/(host|fuzz|image|bench|budget)/.*",
+     r"(src|tests|include|shaders|samples/common)/.*", ANY),
     (r"tests/.*", r"(src|tests|include|shaders)/.*", ANY),
 ]
 

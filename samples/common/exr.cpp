@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// OpenEXR files of the host's own kind: single part, float or half, no subsampling.
+// OpenEXR files of the host's own kind: single part, scan lines, float or half, no loss, no
+// subsampling.
 #include <ImathBox.h>
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -12,6 +13,7 @@
 #include <string>
 
 #include "common/error.hpp"
+#include "common/exr_header.hpp"
 #include "common/image.hpp"
 
 namespace host {
@@ -29,30 +31,27 @@ struct OpenFile {
 // Opens a file and checks everything that decides how much memory reading it takes.
 OpenFile openExr(const fs::path& file) {
   const std::string name = file.string();
-  std::error_code error;
-  if (!fs::is_regular_file(file, error)) {
-    throw InputError(name, "", "no such file; expected an OpenEXR file");
-  }
+  const ExrWindow window = checkExrHeader(file);
   OpenFile open;
   try {
-    open.input = std::make_unique<Imf::InputFile>(name.c_str());
+    open.input = std::make_unique<Imf::InputFile>(name.c_str(), 1);
     open.window = open.input->header().dataWindow();
   } catch (const std::exception& e) {
     throw InputError(name, "", std::string("expected an OpenEXR file: ") + e.what());
   }
-  const int64_t width = int64_t{open.window.max.x} - open.window.min.x + 1;
-  const int64_t height = int64_t{open.window.max.y} - open.window.min.y + 1;
-  if (width < 1 || height < 1 || width > MAX_IMAGE_EDGE || height > MAX_IMAGE_EDGE) {
-    throw InputError(name, "dataWindow",
-                     "expected 1 to " + std::to_string(MAX_IMAGE_EDGE) + " pixels a side, got " +
-                         std::to_string(width) + " x " + std::to_string(height));
+  // The same bytes read by two readers; the file may have changed between them.
+  const Imath::Box2i expected({window.minX, window.minY},
+                              {window.minX + static_cast<int>(window.width) - 1,
+                               window.minY + static_cast<int>(window.height) - 1});
+  if (open.window != expected) {
+    throw InputError(name, "dataWindow", "expected a file that nobody writes");
   }
   // A complete file holds every chunk, so its length bounds the memory of an honest picture.
   if (!open.input->isComplete()) {
     throw InputError(name, "", "expected a complete file, this one is cut off");
   }
-  open.width = static_cast<uint32_t>(width);
-  open.height = static_cast<uint32_t>(height);
+  open.width = window.width;
+  open.height = window.height;
   return open;
 }
 

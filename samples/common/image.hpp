@@ -28,8 +28,9 @@ struct DepthImage {
   std::vector<float> values;
 };
 
-/// Reads channels R, G, B and, if there, A (else 1) of a single-part scan-line or tiled file.
-/// Throws InputError: no such file, not OpenEXR, cut off, too large, other channels.
+/// Reads channels R, G, B and, if there, A (else 1) of a single-part scan-line file, uncompressed,
+/// RLE, ZIPS or ZIP. Throws InputError: no such file, not OpenEXR, of another kind, cut off, too
+/// large, other channels.
 Image readExr(const std::filesystem::path& file);
 
 /// Reads the channel Z, or R where there is no Z, of such a file.

@@ -5,6 +5,7 @@
 #include <openvdb/tools/Dense.h>
 
 #include <fstream>
+#include <stdexcept>
 #include <string>
 
 #include "common/error.hpp"
@@ -20,6 +21,17 @@ openvdb::GridPtrVecPtr readGrids(const std::string& file) {
   openvdb::initialize();
   std::ifstream stream(file, std::ios::binary);
   stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
+  // Of versions that it does not know the library reads on, after a warning.
+  struct {
+    int64_t magic;
+    uint32_t version;
+  } head{};
+  stream.read(reinterpret_cast<char*>(&head.magic), sizeof head.magic);
+  stream.read(reinterpret_cast<char*>(&head.version), sizeof head.version);
+  if (head.magic != openvdb::OPENVDB_MAGIC || head.version > openvdb::OPENVDB_FILE_VERSION) {
+    throw std::runtime_error("magic number or version are not known");
+  }
+  stream.seekg(0);
   return openvdb::io::Stream(stream, false).getGrids();
 }
 

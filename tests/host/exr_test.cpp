@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "common/image.hpp"
+#include "common/text.hpp"
 #include "expect_input_error.hpp"
 #include "temp_folder.hpp"
 
@@ -93,6 +94,38 @@ TEST(HostExr, RefusesOtherChannelsAndTooManyPixels) {
   expectInputError("channel Z", [&] { host::readExrDepth(file); });
   writeChannel(file, "Z", {{0, 0}, {static_cast<int>(host::MAX_IMAGE_EDGE), 0}}, 1.0f);
   expectInputError("dataWindow: expected 1 to 16384", [&] { host::readExrDepth(file); });
+}
+
+// The header of a picture as it is written, with one byte or one number changed.
+std::string edited(const host_test::TempFolder& folder, const std::string& after, size_t offset,
+                   uint64_t value, size_t bytes) {
+  host::writeExr(folder.file("a.exr"), ramp(64, 64));
+  std::string content = host::readTextFile(folder.file("a.exr"), 1 << 20, "EXR");
+  const size_t at = content.find(after) + offset;
+  for (size_t i = 0; i < bytes; ++i) {
+    content[at + i] = static_cast<char>(value >> (8 * i));
+  }
+  return folder.write("edited.exr", content);
+}
+
+TEST(HostExr, RefusesKindsThatTheHostDoesNotNeedBeforeTheLibrarySeesThem) {
+  const host_test::TempFolder folder;
+  const std::string magic("\x76\x2f\x31\x01", 4);
+  for (const uint32_t flag : {0x200u, 0x800u, 0x1000u}) {  // tiled, deep, multi-part
+    const std::string file = edited(folder, magic, 4, 2 | flag, 4);
+    expectInputError("one part of scan lines", [&] { host::readExr(file); });
+  }
+  const std::string type("compression\0compression\0\1\0\0\0", 28);
+  for (uint32_t lossy = 4; lossy < 12; ++lossy) {
+    const std::string file = edited(folder, type, 28, lossy, 1);
+    expectInputError("compression: expected none, RLE, ZIPS or ZIP", [&] { host::readExr(file); });
+  }
+  const std::string window("dataWindow\0box2i\0\x10\0\0\0", 21);
+  EXPECT_NO_THROW(host::readExr(edited(folder, window, 21 + 12, 63, 4)));
+  const std::string large = edited(folder, window, 21 + 8, 16000 | uint64_t{16000} << 32, 8);
+  expectInputError("too short for its pixels", [&] { host::readExr(large); });
+  const std::string size = edited(folder, window, 21 - 4, 0xffffffff, 4);
+  expectInputError("a header that is whole", [&] { host::readExr(size); });
 }
 
 TEST(HostPng, MapsBlackToBlackAndBrightToWhiteMonotonically) {

@@ -10,6 +10,7 @@
 
 #include "common/error.hpp"
 #include "common/image.hpp"
+#include "common/text.hpp"
 #include "common/volume.hpp"
 #include "expect_input_error.hpp"
 #include "temp_folder.hpp"
@@ -85,6 +86,18 @@ TEST(HostVdb, RefusesWhatItCannotUse) {
   huge->getAccessor().setValue({2000000, 2000000, 0}, 1.0f);
   writeGrid(file, huge);
   expectInputError("size: expected 1 to", [&] { host::loadVdb(file, {}); });
+}
+
+TEST(HostVdb, RefusesVersionsThatTheLibraryDoesNotKnow) {
+  const host_test::TempFolder folder;
+  const auto grid = makeGrid(1.0);
+  grid->getAccessor().setValue({0, 0, 0}, 1.0f);
+  writeGrid(folder.file("a.vdb"), grid);
+  std::string content = host::readTextFile(folder.file("a.vdb"), 1 << 20, "VDB");
+  EXPECT_NO_THROW(host::loadVdb(folder.write("b.vdb", content), {}));
+  content[11] = 5;
+  const std::string file = folder.write("newer.vdb", content);
+  expectInputError("magic number or version", [&] { host::loadVdb(file, {}); });
 }
 
 TEST(HostVdb, RefusesAFileThatIsCutOff) {

@@ -57,7 +57,8 @@ TEST(GarbageVolume, OfRandomBitsInAnyFormatIsFinite) {
   constexpr std::array<uint32_t, 3> SIZE{9, 7, 5};
   const VolumeScene s(SIZE, 10.0f);
   std::mt19937 random(2004);
-  for (int round = 0; round < 4; ++round) {
+  constexpr int ROUNDS = 67;  // 201 volumes
+  for (int round = 0; round < ROUNDS; ++round) {
     std::vector<uint32_t> bits(9 * 7 * 5);
     for (uint32_t& word : bits) {
       word = static_cast<uint32_t>(random());

@@ -35,6 +35,9 @@ real exponentialDepth(real extinction, real heightRatio, real distance) {
   return min(extinction * reach * phi1(max(heightRatio, -GROWTH_CAP)), DEPTH_CAP);
 }
 
+// Cap on the depth of light along the horizon: times e^GROWTH_CAP it is still finite in float.
+const real GRAZING_CAP = real(1e21);
+
 // [R04] Eq. 11-15 as corrected, flat Earth: extinctionAtEye and inverseScaleHeight (> 0) in 1/m,
 // viewSlope p and lightSlope l the vertical components of the directions to the far end and to the
 // light, distance in m, may be infinite. l <= 0 gives no light: a flat Earth has no twilight.
@@ -42,7 +45,8 @@ Segment flatExponentialSegment(real extinctionAtEye, real inverseScaleHeight, re
                                real lightSlope, real distance) {
   real length = min(distance, DEPTH_CAP);
   real rise = inverseScaleHeight * viewSlope * length;
-  real nearDepth = extinctionAtEye / (inverseScaleHeight * max(lightSlope, DIRECTION_FLOOR));
+  real nearDepth = min(extinctionAtEye / (inverseScaleHeight * max(lightSlope, DIRECTION_FLOOR)),
+                       GRAZING_CAP);
   Segment result;
   result.opticalDepth = exponentialDepth(extinctionAtEye, rise, length);
   real farDepth = nearDepth * safeExp(min(-rise, GROWTH_CAP));

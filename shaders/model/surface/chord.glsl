@@ -11,7 +11,10 @@ struct ChordLight {
 };
 
 ChordLight emptyChord() {
-  return ChordLight(real(1.0f), real(0.0f));
+  ChordLight empty;
+  empty.transmittance = real(1.0f);
+  empty.inscatter = real(0.0f);
+  return empty;
 }
 
 // -ln(1 - x) for x in [0, 1]: the series ends 2e-7 short, the logarithm is known to 6e-8 / x.

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// What shows only after many frames, or on other machines: memory that grows, and pictures that
+// depend on how many threads drew them.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+
+#include "stress/abuse.hpp"
+
+namespace welkin::test {
+namespace {
+
+constexpr uint64_t FRAMES = 10000;
+constexpr uint64_t WARM_UP = 1000;
+
+// Bytes of memory that the process holds.
+uint64_t residentBytes() {
+  std::ifstream statm("/proc/self/statm");
+  uint64_t all = 0;
+  uint64_t resident = 0;
+  statm >> all >> resident;
+  constexpr uint64_t PAGE = 4096;
+  return resident * PAGE;
+}
+
+SceneOptions tiny() {
+  SceneOptions options;
+  options.width = 8;
+  options.height = 6;
+  options.validation = false;  // the layer keeps records of its own
+  return options;
+}
+
+TEST(Soak, TenThousandFramesTakeNoMoreMemoryThanOneThousand) {
+  const HeadlessScene scene(tiny());
+  scene.setSky();
+  scene.setSun(30, 40);
+  const WlkVolume ball = scene.addBall(0.005f);
+  check(wlkPrepare(scene.context));
+  WlkFrameStats warm{};
+  uint64_t resident = 0;
+  for (uint64_t n = 0; n < FRAMES; ++n) {
+    // All that may change without wlkPrepare: eye, place of the volume, fog's density, voxels.
+    scene.setCamera({0, 2 + static_cast<double>(n % 100), 0}, static_cast<double>(n % 90) - 45, 10);
+    if (n % 10 == 0) {
+      const auto place =
+          boxTransform({-1000, 500, -6000 + static_cast<double>(n % 1000)}, {2000, 2000, 2000});
+      check(wlkSetVolumeTransform(scene.context, ball, place.data()));
+    }
+    if (n % 50 == 0) {
+      scene.upload(ball, {8, 8, 8}, std::vector<float>(512, n % 100 == 0 ? 0.5f : 1.0f));
+    }
+    check(wlkRenderHeadless(scene.context, scene.view, nullptr));
+    if (n == WARM_UP) {
+      warm = scene.stats();
+      resident = residentBytes();
+    }
+  }
+  const WlkFrameStats end = scene.stats();
+  EXPECT_EQ(end.hostMemory, warm.hostMemory);
+  EXPECT_EQ(end.deviceMemory, warm.deviceMemory);
+  EXPECT_EQ(scene.read(WLK_IMAGE_COLOR).badValues(), 0u);
+  // The driver's allocator may round: a quarter of a kilobyte per frame would show.
+  constexpr uint64_t SLACK = (FRAMES - WARM_UP) * 256;
+  EXPECT_LE(residentBytes(), resident + SLACK);
+  RecordProperty("resident_bytes_grown",
+                 std::to_string(static_cast<int64_t>(residentBytes() - resident)));
+  std::printf(
+      "%llu frames, %lld bytes more than after %llu\n", static_cast<unsigned long long>(FRAMES),
+      static_cast<long long>(residentBytes() - resident), static_cast<unsigned long long>(WARM_UP));
+}
+
+// Threads of the driver that draw.
+size_t drawingThreads() {
+  size_t count = 0;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::ifstream comm(task.path() / "comm");
+    std::string name;
+    std::getline(comm, name);
+    count += name.rfind("llvmpipe", 0) == 0 ? 1 : 0;
+  }
+  return count;
+}
+
+// LP_NUM_THREADS as it was.
+class ThreadCount {
+ public:
+  ThreadCount() {
+    if (const char* value = std::getenv(NAME)) {
+      before_ = value;
+    }
+  }
+  ~ThreadCount() { before_ ? setenv(NAME, before_->c_str(), 1) : unsetenv(NAME); }
+  ThreadCount(const ThreadCount&) = delete;
+  ThreadCount& operator=(const ThreadCount&) = delete;
+  static void set(int count) { setenv(NAME, std::to_string(count).c_str(), 1); }
+
+ private:
+  static constexpr const char* NAME = "LP_NUM_THREADS";
+  std::optional<std::string> before_;
+};
+
+TEST(Determinism, PicturesDoNotDependOnTheNumberOfThreads) {
+  const ThreadCount restore;
+  std::optional<Image> first;
+  const size_t others = drawingThreads();  // of contexts that earlier tests keep
+  size_t most = 0;
+  for (const int threads : {0, 1, 2}) {
+    ThreadCount::set(threads);
+    SceneOptions options;
+    options.width = 48;
+    options.height = 27;
+    options.level = WLK_QUALITY_HIGH;
+    options.qualityFlags = WLK_QUALITY_VOLUME_SHADOWS;
+    const HeadlessScene scene(options);
+    scene.setSky();
+    scene.setFog(2e-4f, 300.0f);
+    scene.setSun(20, 60);
+    scene.addBall(0.01f);
+    scene.setCamera({0, 2, 0}, 0, 12);
+    const Image image = scene.render();
+    most = std::max(most, drawingThreads() - others);
+    EXPECT_EQ(image.badValues(), 0u);
+    EXPECT_TRUE(scene.render() == image) << "the next frame differs, " << threads << " threads";
+    if (!first) {
+      first = image;
+    }
+    EXPECT_TRUE(image == *first) << threads << " threads draw another picture";
+  }
+  EXPECT_GT(most, 0u) << "the driver does not know LP_NUM_THREADS: nothing was compared";
+}
+
+}  // namespace
+}  // namespace welkin::test
