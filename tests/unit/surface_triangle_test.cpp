@@ -6,80 +6,19 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <random>
 #include <vector>
 
 #include "model/model.hpp"
+#include "support/closed_meshes.hpp"
 
 namespace {
 
 namespace f32 = welkin::model::f32;
+using namespace support;
 using Point = glm::dvec3;
 
 constexpr int SIZE = 48;  // pixels along the picture's edge
-
-struct Mesh {
-  std::vector<Point> position;
-  std::vector<std::array<uint32_t, 3>> triangle;
-};
-
-// From an octahedron, each triangle in four, `times` times; on the unit sphere, outwards.
-Mesh sphere(int times) {
-  Mesh mesh;
-  mesh.position = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-  mesh.triangle = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
-                   {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
-  for (int i = 0; i < times; ++i) {
-    std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
-    const auto middle = [&](uint32_t a, uint32_t b) {
-      const auto [found, fresh] = middles.try_emplace(std::minmax(a, b), 0);
-      if (fresh) {
-        found->second = static_cast<uint32_t>(mesh.position.size());
-        mesh.position.push_back(glm::normalize(mesh.position[a] + mesh.position[b]));
-      }
-      return found->second;
-    };
-    std::vector<std::array<uint32_t, 3>> finer;
-    for (const auto& [a, b, c] : mesh.triangle) {
-      const uint32_t ab = middle(a, b);
-      const uint32_t bc = middle(b, c);
-      const uint32_t ca = middle(c, a);
-      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
-    }
-    mesh.triangle = finer;
-  }
-  return mesh;
-}
-
-// Not convex: rays cross it up to four times.
-Mesh torus() {
-  constexpr uint32_t AROUND = 24;
-  constexpr uint32_t ACROSS = 12;
-  Mesh mesh;
-  for (uint32_t i = 0; i < AROUND; ++i) {
-    for (uint32_t j = 0; j < ACROSS; ++j) {
-      const double u = 2 * M_PI * i / AROUND;
-      const double v = 2 * M_PI * j / ACROSS;
-      const double r = 0.7 + 0.3 * std::cos(v);
-      mesh.position.push_back({r * std::cos(u), r * std::sin(u), 0.3 * std::sin(v)});
-      const auto at = [&](uint32_t p, uint32_t q) { return p % AROUND * ACROSS + q % ACROSS; };
-      mesh.triangle.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      mesh.triangle.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-  }
-  return mesh;
-}
-
-Mesh box() {
-  Mesh mesh;
-  for (uint32_t i = 0; i < 8; ++i) {
-    mesh.position.push_back({(i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1});
-  }
-  mesh.triangle = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                   {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  return mesh;
-}
 
 struct Camera {
   Point eye;
@@ -110,7 +49,7 @@ struct Seen {
 };
 
 // What the kernel does for each pixel, all triangles.
-std::vector<Seen> draw(const Mesh& mesh, const Camera& camera) {
+std::vector<Seen> draw(const ClosedMesh& mesh, const Camera& camera) {
   std::vector<f32::vec3> vertex;
   for (const Point& p : mesh.position) {
     vertex.push_back(camera.project(p));
@@ -141,7 +80,7 @@ struct Truth {
   double margin = 1e9;  // to the nearest edge of a triangle, in its own coordinates
 };
 
-Truth trace(const Mesh& mesh, const Point& eye, const Point& ray) {
+Truth trace(const ClosedMesh& mesh, const Point& eye, const Point& ray) {
   Truth truth;
   for (const auto& t : mesh.triangle) {
     const Point e1 = mesh.position[t[1]] - mesh.position[t[0]];
@@ -180,7 +119,7 @@ std::vector<Camera> cameras() {
 
 // No pixel of a closed mesh enters more often than it leaves, and none has a negative chord.
 TEST(SurfaceTriangle, ClosedMeshesHaveNoCrackAndNoDoubleHit) {
-  for (const Mesh& mesh : {box(), sphere(4), torus()}) {
+  for (const ClosedMesh& mesh : {boxMesh(), sphereMesh(4), torusMesh()}) {
     for (const Camera& camera : cameras()) {
       int covered = 0;
       for (const Seen& seen : draw(mesh, camera)) {
@@ -198,7 +137,7 @@ TEST(SurfaceTriangle, ChordsAreThoseOfExactRays) {
   // the facet's slope, up to 50 where the margin is kept, for each pixel of 1/16 to 1/192 depths.
   constexpr double MARGIN = 1e-3;
   constexpr double BOUND = 8 * 6e-8 * 100 * 50;
-  for (const Mesh& mesh : {box(), sphere(3), torus()}) {
+  for (const ClosedMesh& mesh : {boxMesh(), sphereMesh(3), torusMesh()}) {
     for (const Camera& camera : cameras()) {
       const std::vector<Seen> picture = draw(mesh, camera);
       int compared = 0;
@@ -217,7 +156,7 @@ TEST(SurfaceTriangle, ChordsAreThoseOfExactRays) {
 // The eye inside, and triangles that reach from before the eye to behind it.
 TEST(SurfaceTriangle, FromInsideEveryRayLeavesOnce) {
   constexpr double BOUND = 1e-3;
-  for (const Mesh& mesh : {box(), sphere(0), sphere(4)}) {
+  for (const ClosedMesh& mesh : {boxMesh(), sphereMesh(0), sphereMesh(4)}) {
     for (const Point& eye : {Point(0, 0, 0), Point(0.2, -0.1, 0.3), Point(-0.4, 0.3, 0.1)}) {
       Camera camera = lookAt(eye, {0.7, 0.1, -0.3});
       camera.scale = SIZE / 4.0;  // 127 degrees

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// surface_cover.glsl over plain buffers: uniforms, then vertices, then indices.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define real float
+const bool AIR_ENABLED = true;
+const bool FOG_ENABLED = true;
+const bool ABSORBER_ENABLED = true;
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const int VERTICES = 0;
+#include "model/model.glsl"
+#include "interface/surface.glsl"
+layout(set = 0, binding = 0, std430) readonly buffer Input {
+  SurfaceUniforms uniforms;
+  float numbers[];
+};
+layout(set = 0, binding = 1, std430) buffer Output { SurfaceCover surfaceCover[]; };
+
+vec3 surfaceVertex(uint i) {
+  return vec3(numbers[3u * i], numbers[3u * i + 1u], numbers[3u * i + 2u]);
+}
+
+uint surfaceIndex(uint k) {
+  return floatBitsToUint(numbers[3u * uint(VERTICES) + k]);
+}
+
+uint surfaceLimit(ivec2 pixel) {
+  return 0xffffffffu;
+}
+
+#include "pass/surface_cover.glsl"
+
+void main() {
+  if (gl_WorkGroupID.x < uniforms.triangle.x) {
+    coverTriangle(uniforms, gl_WorkGroupID.x, gl_LocalInvocationIndex);
+  }
+}
