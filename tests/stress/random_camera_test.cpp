@@ -90,7 +90,7 @@ uint32_t speckles(const Image& image) {
       for (uint32_t n = 0; n < 9; ++n) {
         least = n == 4 ? least : std::min(least, light(x + n % 3 - 1, y + n / 3 - 1));
       }
-      count += light(x, y) < 0.01f * least ? 1 : 0;
+      count += light(x, y) < 0.01f * least ? 1U : 0U;
     }
   }
   return count;
@@ -120,7 +120,7 @@ TEST(RandomCameras, AllGiveFinitePicturesWithoutSpeckles) {
     ASSERT_EQ(image.badValues(), 0u) << "camera " << n;
     ASSERT_EQ(scene.stats().nonFinitePixels, 0u) << "camera " << n;
     ASSERT_EQ(speckles(image), 0u) << "camera " << n;
-    lit += image.mean() > 0 ? 1 : 0;
+    lit += image.mean() > 0 ? 1U : 0U;
   }
   EXPECT_GT(lit, uint32_t{CAMERAS} / 2);
   EXPECT_TRUE(scene.messages().empty()) << scene.messages().front();

@@ -79,7 +79,7 @@ size_t drawingThreads() {
     std::ifstream comm(task.path() / "comm");
     std::string name;
     std::getline(comm, name);
-    count += name.rfind("llvmpipe", 0) == 0 ? 1 : 0;
+    count += name.rfind("llvmpipe", 0) == 0 ? 1U : 0U;
   }
   return count;
 }
