@@ -20,4 +20,6 @@
 #include "surface/chord.glsl"
 #include "surface/tangent_slab.glsl"
 #include "surface/collector.glsl"
+#include "surface/footprint.glsl"
+#include "surface/source.glsl"
 #include "composite.glsl"

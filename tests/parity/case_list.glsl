@@ -21,4 +21,6 @@ const int CASE_CANONICAL = 17;
 const int CASE_CHORD = 18;
 const int CASE_TANGENT_SLAB = 19;
 const int CASE_COLLECTOR = 20;
-const int CASE_COUNT = 21;
+const int CASE_FOOTPRINT = 21;
+const int CASE_SOURCE = 22;
+const int CASE_COUNT = 23;

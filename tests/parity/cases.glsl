@@ -133,6 +133,28 @@ ParityResult parityCase(int which, ParityRow r) {
                    footprintLevel(r.b.x, r.b.y));
     o.second.x = footprintMean(r.b.z, r.b.w);
   }
+  if (which == CASE_FOOTPRINT) {
+    LightFootprint around;
+    around.coverage = r.a.w;
+    around.through = r.b.w;
+    around.lit = head(r.a);
+    around.shaded = head(r.b);
+    SurfaceSlab found = surfaceSlab(int(r.e.x), around, r.c.w, head(r.d), head(r.c));
+    o.first = vec4(found.slab.thickness, found.slab.depth, found.slab.muLight, found.inside);
+    o.second.x = footprintSpread(int(r.e.x), found.slab);
+  }
+  if (which == CASE_SOURCE) {
+    TangentSlab slab;
+    slab.thickness = r.a.x;
+    slab.depth = r.a.y;
+    slab.muLight = r.a.z;
+    slab.muView = r.a.w;
+    slab.phi = r.b.x;
+    SourcePlace place = sourcePlace(int(r.e.x), slab);
+    o.first = vec4(place.node, place.view);
+    o.second = vec4(place.azimuth, place.outside, place.up ? real(1.0f) : real(0.0f),
+                    sourceRadiance(r.b.y, r.b.z, r.a.z, r.b.w));
+  }
   if (which == CASE_SLICES) {
     vec3 axis = halfAngleAxis(head(r.a), head(r.b));
     o.first = vec4(axis, slabOpacity(r.c.x));

@@ -157,6 +157,40 @@ void collectorRow(Random& random, size_t i, Row& row) {
   row[7] = i % 8 == 0 ? 0.0f : random.uniform(0.01, 1);
 }
 
+// Faces up to 60 degrees from the light, so that their cosines are not small differences.
+void footprintRow(Random& random, size_t i, Row& row) {
+  std::array<double, 3> light = random.direction();
+  const auto towards = [&](double sign) {
+    std::array<double, 3> face{};
+    double cosine = -1;
+    while (cosine < 0.5) {
+      face = random.direction();
+      cosine = sign * (face[0] * light[0] + face[1] * light[1] + face[2] * light[2]);
+    }
+    return face;
+  };
+  put(row, 0, towards(1));
+  put(row, 4, towards(-1));
+  put(row, 8, random.direction());
+  put(row, 12, light);
+  row[3] = i == 0 ? 0.0f : random.uniform(0.02, 0.98);
+  row[7] = random.logarithmic(1e-3, 1e3) * row[3];
+  row[11] = random.uniform(0, 1);
+  row[16] = static_cast<float>(i % 8) + 0.5f;
+}
+
+void sourceRow(Random& random, size_t i, Row& row) {
+  row[0] = random.logarithmic(1e-3, 1e4);
+  row[1] = row[0] * random.uniform(0, 1);
+  row[2] = random.uniform(0.001, 1);
+  row[3] = random.uniform(-1, 1);
+  row[4] = random.uniform(0, 3.14159);
+  row[5] = random.uniform(-20, 3);
+  row[6] = random.uniform(-8, 3);
+  row[7] = random.uniform(0, 1);
+  row[16] = static_cast<float>(i % 8) + 0.5f;
+}
+
 // Air and fog of cases.glsl, and a ray from altitude with view and light directions as vectors, so
 // that the three cosines belong together.
 void airRow(Random& random, size_t i, Row& row) {
@@ -251,6 +285,12 @@ Row makeRow(int which, Random& random, size_t i) {
     case CASE_COLLECTOR:
       collectorRow(random, i, row);
       break;
+    case CASE_FOOTPRINT:
+      footprintRow(random, i, row);
+      break;
+    case CASE_SOURCE:
+      sourceRow(random, i, row);
+      break;
     case CASE_SLICES:
       slicesRow(random, row);
       break;
@@ -310,7 +350,7 @@ const char* caseName(int which) {
       "FogParameters", "FogPhase",    "ScatteringTable", "Slices",   "Composite",
       "Segment",       "FlatSegment", "Light",           "AirDepth", "Air",
       "Sample",        "Curve",       "Canonical",       "Chord",    "TangentSlab",
-      "Collector"};
+      "Collector",     "Footprint",   "Source"};
   return NAMES[which];
 }
 

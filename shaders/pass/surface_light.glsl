@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Light scattered at least twice that a surface cloud sends to the eye, from light maps and the
+// source's image: the rule of model/surface with its fetches, two of the maps and four of the
+// source per set. Needs model.glsl. Vectors are in the light's frame, z towards the light.
+//
+// columns: coverage, through (m), x and y of the lit face's normal; faces: z of that normal, then
+// the shaded face's; both with mipmaps of means over all of a texel, filtered linearly in place and
+// level, transparent black beyond their border. source, curves: values and logPhase of
+// src/tables/surface_source, 3-D and 181 x 8, filtered linearly, clamped to their edge.
+
+struct SurfaceMap {
+  float texel;       // width at level 0, m
+  float levels;      // index of the last level
+  float extinction;  // canonical depth per metre: 1 - f of the medium's
+};
+
+LightFootprint surfaceFootprint(sampler2D columns, sampler2D faces, SurfaceMap map, vec2 place,
+                                float level) {
+  // The maps end where one texel holds the whole cloud: a wider footprint is that and nothing.
+  float part = exp2(-2.0 * max(level - map.levels, 0.0));
+  vec4 column = part * textureLod(columns, place, level);
+  vec4 face = part * textureLod(faces, place, level);
+  LightFootprint around;
+  around.coverage = column.x;
+  around.through = column.y * map.extinction;
+  around.lit = vec3(column.zw, face.x);
+  around.shaded = face.yzw;
+  return around;
+}
+
+float surfaceLogSource(sampler3D source, int set, SourcePlace at) {
+  float views = float(SOURCE_VIEWS);
+  float view = min(floor(at.view), views - 2.0);
+  float azimuth = min(floor(at.azimuth), float(SOURCE_AZIMUTHS) - 2.0);
+  vec3 corner = at.node + 0.5;
+  corner.x += (view + (at.up ? views : 0.0)) * float(SOURCE_DEPTHS);
+  corner.y += azimuth * float(SOURCE_THICKNESSES);
+  corner.z += float(set * SOURCE_LIGHTS);
+  vec3 scale = 1.0 / vec3(SOURCE_SIZE);
+  vec3 toView = vec3(float(SOURCE_DEPTHS), 0.0, 0.0);
+  vec3 toAzimuth = vec3(0.0, float(SOURCE_THICKNESSES), 0.0);
+  vec2 near = vec2(textureLod(source, corner * scale, 0.0).x,
+                   textureLod(source, (corner + toView) * scale, 0.0).x);
+  vec2 far = vec2(textureLod(source, (corner + toAzimuth) * scale, 0.0).x,
+                  textureLod(source, (corner + toView + toAzimuth) * scale, 0.0).x);
+  vec2 both = mix(near, far, at.azimuth - azimuth);
+  return mix(both.x, both.y, at.view - view) + at.outside;
+}
+
+// Radiance per unit irradiance and opacity: J at a point at `place` of the map, `shade` metres of
+// cloud below the light. The point is that at chordDepth(SURFACE_SAMPLE, canonical depth of the
+// chord); what the eye gets is this times oneMinusExp(canonical depth of the chord).
+float surfaceScattered(sampler2D columns, sampler2D faces, sampler3D source, sampler2D curves,
+                       SurfaceMap map, vec2 place, float shade, vec3 toEye) {
+  const vec3 TO_LIGHT = vec3(0.0, 0.0, 1.0);
+  LightFootprint here = surfaceFootprint(columns, faces, map, place, 0.0);
+  float through = footprintMean(here.through, here.coverage);
+  float share = lightDepthShare(shade * map.extinction, through);
+  TangentSlab local = tangentSlab(through, through * share, directionOr(here.lit, TO_LIGHT),
+                                  TO_LIGHT, toEye);
+  float angle = slabAngle(-toEye.z, length(toEye.xy)) * 0.3183098861837907;
+  float sum = 0.0;
+  for (int set = 0; set < SURFACE_SETS; ++set) {
+    float spread = footprintSpread(set, local) / max(map.extinction, 1e-20);
+    LightFootprint around =
+        surfaceFootprint(columns, faces, map, place, footprintLevel(spread, map.texel));
+    SurfaceSlab found = surfaceSlab(set, around, share, TO_LIGHT, toEye);
+    SourcePlace at = sourcePlace(set, found.slab);
+    float logPhase =
+        textureLod(curves, vec2((angle * 180.0 + 0.5) / 181.0, (float(set) + 0.5) / 8.0), 0.0).x;
+    sum += sourceRadiance(surfaceLogSource(source, set, at), logPhase, found.slab.muLight,
+                          found.inside);
+  }
+  return sum;
+}
