@@ -126,6 +126,19 @@ enum {
   WLK_QUALITY_LIGHT_SHADOWS = 1u << 2
 };
 
+/** In how many pixels the rays of volumes are marched. */
+enum {
+  /** The level's choice: FULL on every level. */
+  WLK_VOLUME_RESOLUTION_DEFAULT = 0,
+  /** In each. */
+  WLK_VOLUME_RESOLUTION_FULL = 1,
+  /** In every second one along both axes. Those between take on what their neighbours see where
+   *  that is smooth (to 0.64 / sliceCount) and ends at the same surface; all others have rays of
+   *  their own. Only where the light of all slabs is kept (see batchSize): batches and froxels are
+   *  marched as with FULL. Opaque surfaces, air and fog stay at full resolution. */
+  WLK_VOLUME_RESOLUTION_HALF = 2
+};
+
 /** Who chooses between the lowest level and `level`. Controls other than LEVEL leave sliceCount,
  *  batchSize and lightBufferSize 0. */
 enum {
@@ -173,7 +186,8 @@ typedef struct WlkQuality {
   float errorTarget;
   /** WLK_QUALITY_* below which no control goes, at most `level`. Default LOW. */
   uint32_t lowestLevel;
-  uint32_t reserved0;
+  /** WLK_VOLUME_RESOLUTION_*. Default DEFAULT. */
+  uint32_t volumeResolution;
 } WlkQuality;
 
 /** Sets a view's quality. Needs wlkPrepare, unless only timeBudget_ms or errorTarget of a

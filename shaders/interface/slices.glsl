@@ -37,6 +37,20 @@ struct SliceConstants {
   uint lightSize;
 };
 
+// What the march's rays belong to: pixels, froxels, every second pixel along both axes, pixels of a
+// list.
+const uint RAYS_OF_PIXELS = 0u;
+const uint RAYS_OF_FROXELS = 1u;
+const uint RAYS_OF_SECONDS = 2u;
+const uint RAYS_OF_LIST = 3u;
+// The buffer of every second pixel and of the list. In uints: the dispatch's groups along three
+// axes, pixels in the list; then, 8 for each second pixel of the view, row by row with one more
+// than half of its pixels in each, radiance and transmittance, where the ray ends (m) and what the
+// volumes' distance needs; then the list, x + 65536 y.
+const uint LIST_HEAD = 4u;
+const uint SECOND_SIZE = 8u;
+const uint LIST_ROW = 16u;  // groups of the list's dispatch along x
+
 const uint SLICE_FIRST_BATCH = 1u;
 const uint SLICE_LAST_BATCH = 2u;
 const uint SLICE_FIRST_VOLUME = 4u;

@@ -23,8 +23,7 @@ layout(constant_id = 8) const bool MULTIPLE_ENABLED = true;
 layout(constant_id = 9) const bool AMBIENT = false;
 // All colours scatter alike: one is computed.
 layout(constant_id = 10) const bool GREY = false;
-// Slices of froxels, one behind the other, instead of pixels: rays end at the slice's distance.
-layout(constant_id = 13) const bool FROXELS = false;
+layout(constant_id = 13) const uint RAYS = 0u;  // RAYS_OF_*
 layout(constant_id = 14) const bool DISTANCE = false;
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
@@ -48,6 +47,12 @@ layout(set = 0, binding = 18) uniform sampler3D leaps;
 // times the distance (m), and of what is hidden.
 layout(set = 0, binding = 19, std430) buffer Distances { vec4 distances[]; };
 layout(push_constant) uniform Push { SliceConstants slice; };
+
+// Slices of froxels, one behind the other, instead of pixels: rays end at the slice's distance.
+const bool FROXELS = RAYS == RAYS_OF_FROXELS;
+const bool SECONDS = RAYS == RAYS_OF_SECONDS;
+const bool LISTED = RAYS == RAYS_OF_LIST;
+#include "second_pixels.glsl"
 
 #include "../interface/sky_table.glsl"
 #include "ray.glsl"
@@ -123,9 +128,28 @@ End endAt(March m, float s, float eyeDepth) {
 }
 
 void main() {
-  uvec2 offset = tileOf(gl_WorkGroupID.xy, gl_NumWorkGroups.xy) * 8u + gl_LocalInvocationID.xy;
+  uvec2 tile = tileOf(gl_WorkGroupID.xy, gl_NumWorkGroups.xy);
+  uvec2 offset = tile * 8u + gl_LocalInvocationID.xy;
   uvec2 pixel = uvec2(volume.rect.xy) + offset;
-  if (pixel.x >= uint(volume.rect.z) || pixel.y >= uint(volume.rect.w)) {
+  if (SECONDS) {
+    uvec2 second = firstSecond() + offset;
+    if (offset == uvec2(0u)) {
+      seconds[0] = LIST_ROW;
+      seconds[1] = 0u;
+      seconds[2] = 1u;
+      seconds[3] = 0u;
+    }
+    if (second.x > lastSecond().x || second.y > lastSecond().y) {
+      return;
+    }
+    pixel = second * 2u;
+  } else if (LISTED) {
+    uint number = (tile.y * LIST_ROW + tile.x) * 64u + gl_LocalInvocationIndex;
+    if (number >= seconds[3]) {
+      return;
+    }
+    pixel = listedPixel(number);
+  } else if (pixel.x >= uint(volume.rect.z) || pixel.y >= uint(volume.rect.w)) {
     return;
   }
   uint layer = FROXELS ? gl_WorkGroupID.z + uint(frame.froxelRange.x) : 0u;
@@ -133,7 +157,9 @@ void main() {
   vec3 direction = pixelDirection(frame, vec2(pixel));
   float surface = LONGEST_RAY * 100.0f;
   if (DEPTH_ENABLED) {
-    float d = texelFetch(depthImage, ivec2(pixel), 0).x;
+    // The last second pixel may lie outside of the view, by one.
+    uvec2 inside = SECONDS ? min(pixel, uvec2(frame.viewport.xy) - 1u) : pixel;
+    float d = texelFetch(depthImage, ivec2(inside), 0).x;
     surface = surfaceDistance(frame, vec2(pixel), d);
   }
   if (FROXELS) {
@@ -239,6 +265,10 @@ void main() {
     state = vec4(sum, exp(-min(eyeDepth * keep, EXP_CUT)));
   }
 
+  if (SECONDS) {
+    storeSecond(pixel / 2u, state, span.end > span.begin ? span.end : 0.0f, hidden);
+    return;
+  }
   if (DISTANCE) {
     vec4 kept = vec4(hidden, hidden);
     if ((slice.flags & SLICE_FIRST_VOLUME) == 0u) {

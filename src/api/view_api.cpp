@@ -138,6 +138,7 @@ WlkQuality checkedQuality(const WlkQuality* quality) {
   if (q.volumeCells != 0) {
     checkRange(q.sType, "volumeCells", q.volumeCells, 8, 128);
   }
+  checkRange(q.sType, "volumeResolution", q.volumeResolution, 0, WLK_VOLUME_RESOLUTION_HALF);
   checkRange(q.sType, "control", q.control, WLK_CONTROL_LEVEL, WLK_CONTROL_ERROR);
   checkRange(q.sType, "lowestLevel", q.lowestLevel, WLK_QUALITY_LOW, q.level);
   const bool timed = q.control == WLK_CONTROL_TIME || q.control == WLK_CONTROL_REPORTED_TIME;
@@ -163,7 +164,7 @@ WlkQuality checkedQuality(const WlkQuality* quality) {
 bool sameButGoal(const WlkQuality& a, const WlkQuality& b) {
   return a.control == b.control && a.level == b.level && a.lowestLevel == b.lowestLevel &&
          a.slicing == b.slicing && a.scattering == b.scattering && a.flags == b.flags &&
-         a.volumeCells == b.volumeCells;
+         a.volumeCells == b.volumeCells && a.volumeResolution == b.volumeResolution;
 }
 
 }  // namespace

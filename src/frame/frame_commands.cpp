@@ -31,6 +31,15 @@ void FrameCommands::dispatch(VkPipeline pipeline, VkPipelineLayout layout,
   timestamp(statsIndex);
 }
 
+void FrameCommands::dispatchIndirect(VkPipeline pipeline, VkBuffer counts, WlkPassStats& stats,
+                                     uint32_t statsIndex) {
+  vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+  vk.CmdDispatchIndirect(commands, counts, 0);
+  stats.commands += 1;
+  view.record.stats.dispatches += 1;
+  timestamp(statsIndex);
+}
+
 void FrameCommands::timestamp(uint32_t index) {
   const auto query = static_cast<uint32_t>(slot.passOfQuery.size()) + (index == ~0u ? 0 : 1);
   if (index != ~0u) {

@@ -61,6 +61,9 @@ struct FrameCommands {
   void dispatch(VkPipeline pipeline, VkPipelineLayout layout,
                 const interface_::SliceConstants* push, uint32_t x, uint32_t y, WlkPassStats& stats,
                 uint32_t statsIndex, uint32_t z = 1);
+  // The same with the counts that the buffer begins with, which its invocations are not counted by.
+  void dispatchIndirect(VkPipeline pipeline, VkBuffer counts, WlkPassStats& stats,
+                        uint32_t statsIndex);
   // Ends a command of pass `index`; without one, starts the clock.
   void timestamp(uint32_t index = ~0u);
 

@@ -22,9 +22,16 @@ vk::PipelineKey eyeKey(const EyeVariant& v, uint32_t fields, const SliceQuality&
   key.constants[10] = v.stored && (fields & VolumeState::GREY) != 0 ? 1 : 0;
   const bool leaps = (fields & VolumeState::LEAPING) != 0;
   key.constants[12] = v.stored && leaps && !quality.noSkip ? 1 : 0;
-  key.constants[13] = v.froxels;
+  key.constants[13] = v.rays;
   key.constants[14] = v.distance;
   key.constants[15] = fields / VolumeState::VARYING;
+  return key;
+}
+
+vk::PipelineKey spreadKey(bool depth, bool distance) {
+  vk::PipelineKey key{vk::Pass::EyeSpread, VK_FORMAT_UNDEFINED, {}};
+  key.constants[5] = depth;
+  key.constants[14] = distance;
   return key;
 }
 
@@ -99,13 +106,21 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
           for (const bool ambient : {false, features.ambient && quality.ambientCells > 0}) {
             for (const bool all : {false, open}) {
               EyeVariant v{air, fog, lights > 0, depth, all, stored, ambient};
-              pipelines.prepare(eyeKey(v, fields, quality));
-              v.distance = true;
-              if (view.volumeDistance) {
-                pipelines.prepare(eyeKey(v, fields, quality));
+              for (const bool distance : {false, view.volumeDistance}) {
+                v.distance = distance;
+                if (stored && quality.halfVolumes) {
+                  v.rays = interface_::RAYS_OF_SECONDS;
+                  pipelines.prepare(eyeKey(v, fields, quality));
+                  v.rays = interface_::RAYS_OF_LIST;
+                  pipelines.prepare(eyeKey(v, fields, quality));
+                  pipelines.prepare(spreadKey(depth, distance));
+                } else {
+                  v.rays = interface_::RAYS_OF_PIXELS;
+                  pipelines.prepare(eyeKey(v, fields, quality));
+                }
               }
               v.distance = false;
-              v.froxels = true;
+              v.rays = interface_::RAYS_OF_FROXELS;
               if (view.aerial && !depth) {
                 pipelines.prepare(eyeKey(v, fields, quality));
               }

@@ -306,6 +306,7 @@ SliceQuality resolveQuality(const WlkQuality& quality) {
   result.volumeShadows = (quality.flags & WLK_QUALITY_VOLUME_SHADOWS) != 0;
   result.lightShadows = (quality.flags & WLK_QUALITY_LIGHT_SHADOWS) != 0;
   result.noSkip = (quality.flags & WLK_QUALITY_NO_SKIP) != 0;
+  result.halfVolumes = quality.volumeResolution == WLK_VOLUME_RESOLUTION_HALF;
   result.lightRoom = result.lightSize;
   result.cellRoom = result.transportCells;
   result.sliceRoom = result.sliceCount;

@@ -40,6 +40,7 @@ struct SliceQuality {
   uint32_t ambientRoom;
   bool volumeShadows;  // on air, fog and ground
   bool lightShadows;   // likewise, by the engine's map
+  bool halfVolumes;    // rays of stored volumes in every second pixel, and where these differ
   bool multipleSky;    // light scattered more than once in air and fog
   // Index of the scattering tables.
   uint32_t form() const { return transport ? 2 : (forwardScattering && wholeOrders ? 1 : 0); }

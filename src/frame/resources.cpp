@@ -192,6 +192,13 @@ void makeAmbient(vk::Device& device, const SliceQuality& quality, uint32_t volum
   r.viewAmbient = vk::Image(device, info);
 }
 
+// Of the buffer of every second pixel and of the list (shaders/interface/slices.glsl), which three
+// pixels of four may be on.
+VkDeviceSize secondsBytes(const WlkViewInfo& info) {
+  const VkDeviceSize seconds = VkDeviceSize{info.width / 2 + 1} * (info.height / 2 + 1);
+  return 4 * (interface_::LIST_HEAD + (interface_::SECOND_SIZE + 3) * seconds);
+}
+
 void makeHeadlessTargets(vk::Device& device, const WlkViewInfo& info, ViewResources& r) {
   const VkFormat format = targetFormat(info.targetFormat);
   r.depth = makeTarget(device, info.width, info.height, VK_FORMAT_R32_SFLOAT);
@@ -279,15 +286,21 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
       vk::Buffer(device, counterStride * framesInFlight,
                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
   const uint32_t batches = (quality.sliceCount + quality.batchSize - 1) / quality.batchSize;
-  r.queryCount = 6 + volumeCount * ((view.aerial ? 3 : 2) * batches + 3);
+  // Volumes in every second pixel take three commands instead of one.
+  r.queryCount =
+      6 + volumeCount * ((view.aerial ? 3 : 2) * batches + 3 + (quality.halfVolumes ? 2 : 0));
   const VkDeviceSize pixels = VkDeviceSize{info.width} * info.height;
   const VkDeviceSize stateBytes = volumeCount > 0 ? pixels * 16 : 16;
   r.frameState = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
   if (view.volumeDistance) {
     r.distances = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
   }
-  if (volumeCount > 1 && batches > 1 && features.batches) {
-    r.volumeState = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
+  const bool seconds = quality.halfVolumes && features.stores && volumeCount > 0;
+  if ((volumeCount > 1 && batches > 1 && features.batches) || seconds) {
+    const VkDeviceSize bytes = seconds ? std::max(secondsBytes(info), stateBytes) : stateBytes;
+    r.volumeState = vk::Buffer(
+        device, bytes,
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, false);
   }
   if (volumeCount > 0) {
     if (pixels * 16 > device.properties().limits.maxStorageBufferRange) {

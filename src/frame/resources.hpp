@@ -56,10 +56,12 @@ struct EyeVariant {
   bool fog, light, depth, allLight;
   bool stored;  // marches through a store
   bool ambient;
-  bool froxels = false;
+  uint32_t rays = interface_::RAYS_OF_PIXELS;  // of what: RAYS_OF_*
   bool distance = false;
 };
 vk::PipelineKey distanceKey();
+// What pixels between the rays of every second one take on.
+vk::PipelineKey spreadKey(bool depth, bool distance);
 vk::PipelineKey eyeKey(const EyeVariant& variant, uint32_t fields, const SliceQuality& quality);
 inline constexpr std::array TRANSPORT_PASSES{
     vk::Pass::TransportDepth,  vk::Pass::TransportCells,       vk::Pass::TransportSweep,

@@ -20,14 +20,25 @@ using interface_::SliceConstants;
 using interface_::VolumeUniforms;
 
 vk::PipelineKey eyeKeyOf(const FrameCommands& c, const ViewTargets& targets,
-                         const PlannedVolume& planned, bool froxels) {
+                         const PlannedVolume& planned, uint32_t rays) {
   const Plan& plan = c.view.plan;
   const RecordVolume& volume = c.in.volumes[planned.index];
+  const bool froxels = rays == interface_::RAYS_OF_FROXELS;
   const bool depth = targets.depth && !froxels;
   const bool distance = targets.volumeDistance && !froxels;
   return eyeKey({plan.airKind(), plan.fog, planned.lit, depth, plan.allLight,
-                 volume.store != nullptr, planned.ambient, froxels, distance},
+                 volume.store != nullptr, planned.ambient, rays, distance},
                 volume.state->fieldKind(), c.quality);
+}
+
+// Whether rays are marched in every second pixel. Batches are not: what they leave is known only
+// after the last of them, when the light of the others is gone.
+bool marchesSeconds(const FrameCommands& c, const PlannedVolume& planned) {
+  return c.quality.halfVolumes && c.in.volumes[planned.index].store != nullptr;
+}
+
+vk::PipelineKey spreadKeyOf(const ViewTargets& targets) {
+  return spreadKey(static_cast<bool>(targets.depth), static_cast<bool>(targets.volumeDistance));
 }
 
 bool marchesFroxels(const FrameCommands& c) {
@@ -176,17 +187,39 @@ class VolumeRecorder {
   void dispatchEye(const SliceConstants& push, WlkPassStats& eye, uint32_t index) {
     const VkPipelineLayout layout = c_.pipelines.volumeLayout();
     c_.orderShaders();
-    c_.dispatch(c_.find(eyeKeyOf(c_, targets_, planned_, false)), layout, &push,
-                groups(covered_.rect.x1 - covered_.rect.x0),
-                groups(covered_.rect.y1 - covered_.rect.y0), eye, index);
+    if (marchesSeconds(c_, planned_)) {
+      dispatchSeconds(push, eye, index);
+    } else {
+      c_.dispatch(c_.find(eyeKeyOf(c_, targets_, planned_, interface_::RAYS_OF_PIXELS)), layout,
+                  &push, groups(covered_.rect.x1 - covered_.rect.x0),
+                  groups(covered_.rect.y1 - covered_.rect.y0), eye, index);
+    }
     if (marchesFroxels(c_)) {
       use(froxelTarget());
       const PixelRect rect = froxelRect(covered_.rect, c_.view);
-      c_.dispatch(c_.find(eyeKeyOf(c_, targets_, planned_, true)), layout, &push,
+      c_.dispatch(c_.find(eyeKeyOf(c_, targets_, planned_, interface_::RAYS_OF_FROXELS)), layout, &push,
                   groups(rect.x1 - rect.x0), groups(rect.y1 - rect.y0), c_.aerial.stats,
                   c_.aerial.statsIndex, c_.aerial.endSlice - c_.aerial.firstSlice);
       use(pixelTarget());
     }
+  }
+
+  // Rays of every second pixel, those between them, and rays of the pixels where that will not do.
+  void dispatchSeconds(const SliceConstants& push, WlkPassStats& eye, uint32_t index) {
+    const VkPipelineLayout layout = c_.pipelines.volumeLayout();
+    const PixelRect& rect = covered_.rect;
+    const uint32_t width = rect.x1 / 2 - rect.x0 / 2 + 1;
+    const uint32_t height = rect.y1 / 2 - rect.y0 / 2 + 1;
+    c_.dispatch(c_.find(eyeKeyOf(c_, targets_, planned_, interface_::RAYS_OF_SECONDS)), layout,
+                &push, groups(width), groups(height), eye, index);
+    c_.orderShaders();
+    c_.dispatch(c_.find(spreadKeyOf(targets_)), layout, &push, groups(width), groups(height), eye,
+                index);
+    c_.barrier({COMPUTE, SHADER_ACCESS},
+               {COMPUTE | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                SHADER_ACCESS | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
+    c_.dispatchIndirect(c_.find(eyeKeyOf(c_, targets_, planned_, interface_::RAYS_OF_LIST)),
+                        c_.view.resources.volumeState.handle(), eye, index);
   }
 
   EyeTarget pixelTarget() const {
@@ -311,9 +344,15 @@ void findVolumePipelines(const FrameCommands& commands, const ViewTargets& targe
   if (!planned.drawn) {
     return;
   }
-  commands.find(eyeKeyOf(commands, targets, planned, false));
+  if (marchesSeconds(commands, planned)) {
+    commands.find(eyeKeyOf(commands, targets, planned, interface_::RAYS_OF_SECONDS));
+    commands.find(eyeKeyOf(commands, targets, planned, interface_::RAYS_OF_LIST));
+    commands.find(spreadKeyOf(targets));
+  } else {
+    commands.find(eyeKeyOf(commands, targets, planned, interface_::RAYS_OF_PIXELS));
+  }
   if (marchesFroxels(commands)) {
-    commands.find(eyeKeyOf(commands, targets, planned, true));
+    commands.find(eyeKeyOf(commands, targets, planned, interface_::RAYS_OF_FROXELS));
   }
   const RecordVolume& volume = commands.in.volumes[planned.index];
   const uint32_t fields = volume.state->fieldKind();

@@ -15,6 +15,7 @@
 #include "composite_vert_spv.h"
 #include "eye_march_comp_spv.h"
 #include "eye_slices_comp_spv.h"
+#include "eye_spread_comp_spv.h"
 #include "light_depth_comp_spv.h"
 #include "light_slices_comp_spv.h"
 #include "shadow_map_comp_spv.h"
@@ -246,6 +247,8 @@ Pipelines::Compute Pipelines::computeOf(Pass pass) const {
       return {eye_slices_comp_spv, volumeLayout_};
     case Pass::EyeMarch:
       return {eye_march_comp_spv, volumeLayout_};
+    case Pass::EyeSpread:
+      return {eye_spread_comp_spv, volumeLayout_};
     case Pass::SkyTable:
       return {sky_table_comp_spv, skyLayout_};
     case Pass::AmbientCells:

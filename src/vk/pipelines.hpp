@@ -17,6 +17,7 @@ enum class Pass : uint32_t {
   LightDepth,
   EyeSlices,
   EyeMarch,
+  EyeSpread,
   SkyTable,
   Composite,
   CompositeBlend,

@@ -59,10 +59,17 @@ class CaseStudy {
     density_ = uploadCloud(gpu, cloud_);
     truth_ = cloudTruth(cloud_, toLight_, options.size, options.truth);
     for (const Setting& setting : SLICED) {
-      addWelkin(setting, false);
+      addWelkin(setting, "welkin", {});
+    }
+    for (const Setting& setting : SLICED) {
+      WelkinVolumeOptions half;
+      half.half = true;
+      addWelkin(setting, "welkin, half", half);
     }
     for (const Setting& setting : FRESH) {
-      addWelkin(setting, true);
+      WelkinVolumeOptions fresh;
+      fresh.fresh = true;
+      addWelkin(setting, "welkin, light computed", fresh);
     }
     for (const Setting& setting : SLICED) {
       addSlicer(setting);
@@ -112,20 +119,18 @@ class CaseStudy {
     return method;
   }
 
-  void addWelkin(const Setting& setting, bool fresh) {
-    WelkinVolumeOptions options;
-    options.fresh = fresh;
-    options.slices = setting.slices;
-    options.lightSize = setting.lightSize;
-    welkins_.push_back(std::make_unique<WelkinVolume>(gpu_, target_, &cloud_, toLight_, options));
+  void addWelkin(const Setting& setting, const char* name, WelkinVolumeOptions how) {
+    how.slices = setting.slices;
+    how.lightSize = setting.lightSize;
+    welkins_.push_back(std::make_unique<WelkinVolume>(gpu_, target_, &cloud_, toLight_, how));
     WelkinVolume* welkin = welkins_.back().get();
     auto times = std::make_shared<std::array<std::vector<double>, 2>>();
-    Method& method = add(fresh ? "welkin, light computed" : "welkin", setting);
+    Method& method = add(name, setting);
     method.frame = [this, welkin, times] {
       const double spent = gpu_.run([&](VkCommandBuffer c) { welkin->record(c); });
-      for (const auto& [name, time] : welkin->counts().passes_ms) {
-        if (time > 0 && (name == "eye slices" || name == "light slices")) {
-          (*times)[name == "eye slices" ? 0 : 1].push_back(time);
+      for (const auto& [pass, time] : welkin->counts().passes_ms) {
+        if (time > 0 && (pass == "eye slices" || pass == "light slices")) {
+          (*times)[pass == "eye slices" ? 0 : 1].push_back(time);
         }
       }
       return spent;

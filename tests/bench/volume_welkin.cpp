@@ -63,6 +63,8 @@ WelkinVolume::WelkinVolume(Gpu& gpu, const GpuImage& target, const Cloud* cloud,
     quality.sliceCount = options.slices;
     quality.lightBufferSize = options.lightSize;
     quality.flags = options.fresh ? WLK_QUALITY_NO_SKIP : 0;
+    quality.volumeResolution =
+        options.half ? WLK_VOLUME_RESOLUTION_HALF : WLK_VOLUME_RESOLUTION_FULL;
     quality.scattering = options.underSky ? WLK_SCATTERING_DEFAULT : WLK_SCATTERING_SINGLE;
     welkin::check(wlkSetQuality(context_, made, &quality));
   }

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// Radiance and transmittance of the pixels between the rays of every second one (second_pixels.glsl):
+// by cubics through the four nearest along each axis where those are smooth and end at the same
+// surface; the others go on a list, whose pixels are marched next. One invocation has 2 x 2 pixels.
+//
+// Smooth: second and third differences bound what a cubic misses. A step between the middle two of
+// four, which leaves the second difference 0, has a third one of twice its height, so that steps of
+// 8 bounds and more are never interpolated.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "common.glsl"
+#include "../interface/slices.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 5) const bool DEPTH_ENABLED = true;
+layout(constant_id = 14) const bool DISTANCE = false;
+
+layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
+layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volume; };
+layout(set = 0, binding = 9) uniform sampler2D depthImage;
+layout(set = 0, binding = 10, std430) buffer FrameState { vec4 frameState[]; };
+layout(set = 0, binding = 19, std430) buffer Distances { vec4 distances[]; };
+layout(push_constant) uniform Push { SliceConstants slice; };
+
+#include "ray.glsl"
+#include "second_pixels.glsl"
+
+// Of differences over 16, as a part of the largest radiance around, and of the transmittance 1: over
+// the number of slabs, of which about a third is what slabs are wrong by.
+const float SMOOTH_SLABS = 0.64f;
+// Of the ray's length inside the box, by which its end may miss what its neighbours' ends promise.
+const float SAME_END = 0.02f;
+
+// What a ray saw: radiance and transmittance; where it ends (m), 0 if it misses the box, and sums
+// for the volumes' distance.
+struct Ray {
+  vec4 state;
+  vec4 sums;
+};
+
+Ray rayAt(ivec2 second) {
+  uint at = secondAddress(uvec2(clamp(second, ivec2(firstSecond()), ivec2(lastSecond()))));
+  Ray ray;
+  ray.state = vec4(uintBitsToFloat(seconds[at]), uintBitsToFloat(seconds[at + 1u]),
+                   uintBitsToFloat(seconds[at + 2u]), uintBitsToFloat(seconds[at + 3u]));
+  ray.sums = vec4(0.0f);
+  if (DEPTH_ENABLED) {
+    ray.sums.x = uintBitsToFloat(seconds[at + 4u]);
+  }
+  if (DISTANCE) {
+    ray.sums.y = uintBitsToFloat(seconds[at + 5u]);
+    ray.sums.z = uintBitsToFloat(seconds[at + 6u]);
+  }
+  return ray;
+}
+
+// What a cubic through four values may miss in their middle, and the cubic there.
+vec4 missed(vec4 a, vec4 b, vec4 c, vec4 d) {
+  return max(abs(b + c - a - d), abs(a - d + 3.0f * (c - b))) * 0.0625f;
+}
+
+vec4 middleOf(vec4 a, vec4 b, vec4 c, vec4 d) {
+  return (9.0f * (b + c) - (a + d)) * 0.0625f;
+}
+
+// Where the ray ends inside the box and where it enters it, m; 0 if it misses.
+vec2 endOf(uvec2 pixel) {
+  vec3 direction = pixelDirection(frame, vec2(pixel));
+  float d = texelFetch(depthImage, ivec2(pixel), 0).x;
+  vec3 along = (volume.boxFromEye * vec4(direction, 0.0f)).xyz;
+  Span span = rayBox(volume.boxFromEye[3].xyz, along, vec3(0.0f), vec3(1.0f));
+  span.end = min(span.end, surfaceDistance(frame, vec2(pixel), d));
+  return span.end > span.begin ? vec2(span.end, span.begin) : vec2(0.0f);
+}
+
+// Behind what the volumes in front have left.
+void take(uvec2 pixel, Ray ray) {
+  uint index = pixel.y * uint(frame.viewport.x) + pixel.x;
+  vec4 front = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  vec2 sums = vec2(0.0f);
+  if ((slice.flags & SLICE_FIRST_VOLUME) == 0u) {
+    front = frameState[index];
+    if (DISTANCE) {
+      sums = distances[index].xy;
+    }
+  }
+  frameState[index] = vec4(front.xyz + front.w * ray.state.xyz, front.w * ray.state.w);
+  if (DISTANCE) {
+    distances[index] = vec4(sums + front.w * ray.sums.yz, ray.sums.yz);
+  }
+}
+
+bool inside(uvec2 pixel) {
+  return pixel.x < uint(volume.rect.z) && pixel.y < uint(volume.rect.w);
+}
+
+// Whether a pixel may take on what lies between its neighbours. Comparisons that fail for NaN.
+bool serves(uvec2 pixel, Ray between, Ray error, Ray most) {
+  float bound = SMOOTH_SLABS / volume.texelB.w;
+  bool smooth_ = all(lessThanEqual(error.state, bound * most.state));
+  if (DISTANCE) {
+    smooth_ = smooth_ && error.sums.y <= bound * most.sums.y;
+  }
+  if (DEPTH_ENABLED) {
+    vec2 own = endOf(pixel);
+    smooth_ = smooth_ && abs(own.x - between.sums.x) <= SAME_END * (own.x - own.y);
+  }
+  return smooth_;
+}
+
+// Rays a, b, c, d along a line.
+Ray cubic(Ray a, Ray b, Ray c, Ray d) {
+  Ray between;
+  between.state = middleOf(a.state, b.state, c.state, d.state);
+  between.sums = middleOf(a.sums, b.sums, c.sums, d.sums);
+  between.sums.x = 0.5f * (b.sums.x + c.sums.x);  // surfaces have edges
+  return between;
+}
+
+Ray cubicError(Ray a, Ray b, Ray c, Ray d) {
+  Ray error;
+  error.state = missed(a.state, b.state, c.state, d.state);
+  error.sums = missed(a.sums, b.sums, c.sums, d.sums);
+  return error;
+}
+
+Ray larger(Ray a, Ray b) {
+  Ray both;
+  both.state = max(a.state, b.state);
+  both.sums = max(a.sums, b.sums);
+  return both;
+}
+
+// Takes on what lies between the neighbours, or asks for a ray.
+void settle(uvec2 pixel, Ray between, Ray error, Ray most, inout uint count, inout uvec3 listed) {
+  if (!inside(pixel)) {
+    return;
+  }
+  if (serves(pixel, between, error, most)) {
+    between.state = vec4(max(between.state.xyz, vec3(0.0f)), clamp(between.state.w, 0.0f, 1.0f));
+    between.sums = max(between.sums, vec4(0.0f));
+    take(pixel, between);
+  } else {
+    uint both = pixel.x | (pixel.y << 16u);
+    listed = count == 0u ? uvec3(both, 0u, 0u)
+                         : (count == 1u ? uvec3(listed.x, both, 0u) : uvec3(listed.xy, both));
+    count += 1u;
+  }
+}
+
+void main() {
+  uvec2 second = firstSecond() + gl_GlobalInvocationID.xy;
+  uvec2 corner = second * 2u;
+  if (!inside(corner)) {
+    return;
+  }
+  // Of each of four rows: the second of its four, and what lies between that and the third.
+  Ray column[4];
+  Ray between[4];
+  Ray error[4];
+  Ray most;
+  most.state = vec4(0.0f);
+  most.sums = vec4(0.0f);
+  for (int j = 0; j < 4; ++j) {
+    ivec2 at = ivec2(second) + ivec2(0, j - 1);
+    Ray a = rayAt(at - ivec2(1, 0));
+    Ray b = rayAt(at);
+    Ray c = rayAt(at + ivec2(1, 0));
+    Ray d = rayAt(at + ivec2(2, 0));
+    column[j] = b;
+    between[j] = cubic(a, b, c, d);
+    error[j] = cubicError(a, b, c, d);
+    if (j == 1 || j == 2) {
+      most = larger(most, larger(b, c));
+    }
+  }
+  most.state = vec4(vec3(max(max(most.state.x, most.state.y), most.state.z)), 1.0f);
+  Ray right = between[1];
+  Ray below = cubic(column[0], column[1], column[2], column[3]);
+  Ray across = cubic(between[0], between[1], between[2], between[3]);
+  Ray belowError = cubicError(column[0], column[1], column[2], column[3]);
+  Ray acrossError = larger(cubicError(between[0], between[1], between[2], between[3]),
+                           larger(error[1], error[2]));
+  uint count = 0u;
+  uvec3 listed = uvec3(0u);
+  take(corner, column[1]);
+  settle(corner + uvec2(1u, 0u), right, error[1], most, count, listed);
+  settle(corner + uvec2(0u, 1u), below, belowError, most, count, listed);
+  settle(corner + uvec2(1u, 1u), across, acrossError, most, count, listed);
+  if (count > 0u) {
+    uint first = atomicAdd(seconds[3], count);
+    uint last = first + count - 1u;
+    atomicMax(seconds[1], last / (64u * LIST_ROW) + 1u);
+    uint at = listAddress() + first;
+    seconds[at] = listed.x;
+    if (count > 1u) {
+      seconds[at + 1u] = listed.y;
+    }
+    if (count > 2u) {
+      seconds[at + 2u] = listed.z;
+    }
+  }
+}
