@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Radiance and transmittance of the pixels between the rays of every second one (second_pixels.glsl):
+// Radiance and transmittance of pixels between the rays of every second one (second_pixels.glsl):
 // by cubics through the four nearest along each axis where those are smooth and end at the same
 // surface; the others go on a list, whose pixels are marched next. One invocation has 2 x 2 pixels.
 //
@@ -25,8 +25,8 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 #include "ray.glsl"
 #include "second_pixels.glsl"
 
-// Of differences over 16, as a part of the largest radiance around, and of the transmittance 1: over
-// the number of slabs, of which about a third is what slabs are wrong by.
+// Of differences over 16, in parts of the largest radiance around, of the transmittance in parts of
+// 1; over the number of slabs, since the fewer there are, the more they are wrong by themselves.
 const float SMOOTH_SLABS = 0.64f;
 // Of the ray's length inside the box, by which its end may miss what its neighbours' ends promise.
 const float SAME_END = 0.02f;

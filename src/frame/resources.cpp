@@ -298,9 +298,9 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   const bool seconds = quality.halfVolumes && features.stores && volumeCount > 0;
   if ((volumeCount > 1 && batches > 1 && features.batches) || seconds) {
     const VkDeviceSize bytes = seconds ? std::max(secondsBytes(info), stateBytes) : stateBytes;
-    r.volumeState = vk::Buffer(
-        device, bytes,
-        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, false);
+    r.volumeState =
+        vk::Buffer(device, bytes,
+                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, false);
   }
   if (volumeCount > 0) {
     if (pixels * 16 > device.properties().limits.maxStorageBufferRange) {

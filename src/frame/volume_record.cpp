@@ -197,8 +197,8 @@ class VolumeRecorder {
     if (marchesFroxels(c_)) {
       use(froxelTarget());
       const PixelRect rect = froxelRect(covered_.rect, c_.view);
-      c_.dispatch(c_.find(eyeKeyOf(c_, targets_, planned_, interface_::RAYS_OF_FROXELS)), layout, &push,
-                  groups(rect.x1 - rect.x0), groups(rect.y1 - rect.y0), c_.aerial.stats,
+      c_.dispatch(c_.find(eyeKeyOf(c_, targets_, planned_, interface_::RAYS_OF_FROXELS)), layout,
+                  &push, groups(rect.x1 - rect.x0), groups(rect.y1 - rect.y0), c_.aerial.stats,
                   c_.aerial.statsIndex, c_.aerial.endSlice - c_.aerial.firstSlice);
       use(pixelTarget());
     }
@@ -215,9 +215,8 @@ class VolumeRecorder {
     c_.orderShaders();
     c_.dispatch(c_.find(spreadKeyOf(targets_)), layout, &push, groups(width), groups(height), eye,
                 index);
-    c_.barrier({COMPUTE, SHADER_ACCESS},
-               {COMPUTE | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
-                SHADER_ACCESS | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
+    c_.barrier({COMPUTE, SHADER_ACCESS}, {COMPUTE | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                                          SHADER_ACCESS | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
     c_.dispatchIndirect(c_.find(eyeKeyOf(c_, targets_, planned_, interface_::RAYS_OF_LIST)),
                         c_.view.resources.volumeState.handle(), eye, index);
   }

@@ -153,8 +153,8 @@ TEST(HalfResolution, LeavesNoHaloAtOpaqueEdges) {
     std::vector<float> color(4 * depth.size(), 0.0f);
     for (uint32_t y = 0; y < SIZE; ++y) {
       for (uint32_t x = 0; x < SIZE; ++x) {
-        const bool bar = x % 13 == 5 || y % 17 == 8 || (x % 7 == 3 && y % 9 == 2) ||
-                         (x > 40 && y > 40);
+        const bool bar =
+            x % 13 == 5 || y % 17 == 8 || (x % 7 == 3 && y % 9 == 2) || (x > 40 && y > 40);
         if (bar) {
           depth[y * SIZE + x] = NEAR / distance;
         }

@@ -30,7 +30,8 @@ namespace {
 #define WELKIN_REST(X)                                                                          \
   X(UpdateDescriptorSets) X(CmdPipelineBarrier2) X(CmdCopyBufferToImage)                        \
   X(CmdCopyImageToBuffer) X(CmdFillBuffer) X(CmdBindPipeline) X(CmdBindDescriptorSets)          \
-  X(CmdPushConstants) X(CmdDispatch) X(CmdDispatchIndirect) X(CmdResetQueryPool) X(CmdWriteTimestamp2)                 \
+  X(CmdPushConstants) X(CmdDispatch) X(CmdDispatchIndirect) X(CmdResetQueryPool)                \
+  X(CmdWriteTimestamp2)                                                                         \
   X(CmdBeginRendering) X(CmdEndRendering) X(CmdSetViewport) X(CmdSetScissor) X(CmdDraw)         \
   X(CmdClearColorImage)
 // clang-format on
