@@ -3,6 +3,7 @@
 // allocation may fail at any time, which leaks nothing and leaves a context that works.
 #include "stress/abuse.hpp"
 #include "stress/counting_allocator.hpp"
+#include "support/engine_scene.hpp"
 
 namespace welkin::test {
 namespace {
@@ -171,6 +172,42 @@ TEST(Allocator, EveryStepOfASceneSurvivesEveryFailure) {
         });
     failEachUntilSuccess(
         memory, [&] { return wlkDestroyView(c, scene.view); }, nothing);
+    EXPECT_TRUE(scene.messages().empty()) << scene.messages().front();
+  }
+  EXPECT_EQ(memory.live(), 0u) << "the context leaks";
+}
+
+TEST(Allocator, TargetsBesideThePictureSurviveEveryFailure) {
+  CountingAllocator memory;
+  SceneOptions options;
+  options.width = 16;
+  options.height = 12;
+  options.allocator = memory.callbacks();
+  {
+    EngineScene scene(options);
+    const WlkContext c = scene.context;
+    scene.setSun(30, 40);
+    scene.addBall(0.005f);
+    const auto nothing = [] {};
+    auto aerial = make<WlkAerialPerspective>();
+    aerial.width = aerial.height = aerial.depth = 4;
+    failEachUntilSuccess(
+        memory, [&] { return wlkVulkanSetAerialPerspective(c, scene.view, &aerial); }, nothing);
+    failEachUntilSuccess(
+        memory, [&] { return wlkVulkanSetVolumeDistance(c, scene.view, 1); }, nothing);
+    const auto info = make<WlkShadowMapInfo>();
+    WlkShadowMap map{};
+    EXPECT_GT(failEachUntilSuccess(
+                  memory, [&] { return wlkVulkanCreateShadowMap(c, &info, &map); },
+                  [&] { EXPECT_EQ(map.id, 0u); }),
+              0u);
+    EXPECT_GT(failEachUntilSuccess(
+                  memory, [&] { return wlkPrepare(c); }, nothing),
+              0u);
+    scene.renderFrame();
+    EXPECT_EQ(scene.read().badValues(), 0u);
+    failEachUntilSuccess(
+        memory, [&] { return wlkVulkanDestroyShadowMap(c, map); }, nothing);
     EXPECT_TRUE(scene.messages().empty()) << scene.messages().front();
   }
   EXPECT_EQ(memory.live(), 0u) << "the context leaks";
