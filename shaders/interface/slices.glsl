@@ -50,6 +50,7 @@ const uint RAYS_OF_LIST = 3u;
 const uint LIST_HEAD = 4u;
 const uint SECOND_SIZE = 8u;
 const uint LIST_ROW = 16u;  // groups of the list's dispatch along x
+const uint SPREAD_CELLS = 4u;  // second pixels, one below the other, of an invocation
 
 const uint SLICE_FIRST_BATCH = 1u;
 const uint SLICE_LAST_BATCH = 2u;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Radiance and transmittance of pixels between the rays of every second one (second_pixels.glsl):
 // by cubics through the four nearest along each axis where those are smooth and end at the same
-// surface; the others go on a list, whose pixels are marched next. One invocation has 2 x 2 pixels.
+// surface; the others go on a list, whose pixels are marched next. An invocation goes down a column
+// of SPREAD_CELLS times 2 x 2 pixels, so that it reads each row's rays once.
 //
 // Smooth: second and third differences bound what a cubic misses. A step between the middle two of
 // four, which leaves the second difference 0, has a third one of twice its height, so that steps of
@@ -148,49 +149,48 @@ void settle(uvec2 pixel, Ray between, Ray error, Ray most, inout uint count, ino
   }
 }
 
-void main() {
-  uvec2 second = firstSecond() + gl_GlobalInvocationID.xy;
-  uvec2 corner = second * 2u;
-  if (!inside(corner)) {
-    return;
-  }
-  // Of each of four rows: the second of its four, and what lies between that and the third.
-  Ray column[4];
-  Ray between[4];
-  Ray error[4];
+// Of four rays along a row: the second, what lies between it and the third, and the larger of both.
+struct Row {
+  Ray second;
+  Ray between;
+  Ray error;
   Ray most;
-  most.state = vec4(0.0f);
-  most.sums = vec4(0.0f);
-  for (int j = 0; j < 4; ++j) {
-    ivec2 at = ivec2(second) + ivec2(0, j - 1);
-    Ray a = rayAt(at - ivec2(1, 0));
-    Ray b = rayAt(at);
-    Ray c = rayAt(at + ivec2(1, 0));
-    Ray d = rayAt(at + ivec2(2, 0));
-    column[j] = b;
-    between[j] = cubic(a, b, c, d);
-    error[j] = cubicError(a, b, c, d);
-    if (j == 1 || j == 2) {
-      most = larger(most, larger(b, c));
-    }
-  }
+};
+
+Row rowAt(ivec2 at) {
+  Ray a = rayAt(at - ivec2(1, 0));
+  Ray b = rayAt(at);
+  Ray c = rayAt(at + ivec2(1, 0));
+  Ray d = rayAt(at + ivec2(2, 0));
+  Row row;
+  row.second = b;
+  row.between = cubic(a, b, c, d);
+  row.error = cubicError(a, b, c, d);
+  row.most = larger(b, c);
+  return row;
+}
+
+// 2 x 2 pixels, the first of which has a ray of its own, from the four rows around.
+void settleCell(uvec2 corner, Row above, Row here, Row next, Row last) {
+  Ray most = larger(here.most, next.most);
   most.state = vec4(vec3(max(max(most.state.x, most.state.y), most.state.z)), 1.0f);
-  Ray right = between[1];
-  Ray below = cubic(column[0], column[1], column[2], column[3]);
-  Ray across = cubic(between[0], between[1], between[2], between[3]);
-  Ray belowError = cubicError(column[0], column[1], column[2], column[3]);
-  Ray acrossError = larger(cubicError(between[0], between[1], between[2], between[3]),
-                           larger(error[1], error[2]));
+  Ray below = cubic(above.second, here.second, next.second, last.second);
+  Ray belowError = cubicError(above.second, here.second, next.second, last.second);
+  Ray across = cubic(above.between, here.between, next.between, last.between);
+  Ray acrossError = larger(cubicError(above.between, here.between, next.between, last.between),
+                           larger(here.error, next.error));
   uint count = 0u;
   uvec3 listed = uvec3(0u);
-  take(corner, column[1]);
-  settle(corner + uvec2(1u, 0u), right, error[1], most, count, listed);
+  if (inside(corner)) {
+    take(corner, here.second);
+  }
+  settle(corner + uvec2(1u, 0u), here.between, here.error, most, count, listed);
   settle(corner + uvec2(0u, 1u), below, belowError, most, count, listed);
   settle(corner + uvec2(1u, 1u), across, acrossError, most, count, listed);
   if (count > 0u) {
     uint first = atomicAdd(seconds[3], count);
-    uint last = first + count - 1u;
-    atomicMax(seconds[1], last / (64u * LIST_ROW) + 1u);
+    uint end = first + count - 1u;
+    atomicMax(seconds[1], end / (64u * LIST_ROW) + 1u);
     uint at = listAddress() + first;
     seconds[at] = listed.x;
     if (count > 1u) {
@@ -199,5 +199,23 @@ void main() {
     if (count > 2u) {
       seconds[at + 2u] = listed.z;
     }
+  }
+}
+
+void main() {
+  uvec2 second = firstSecond() + gl_GlobalInvocationID.xy * uvec2(1u, SPREAD_CELLS);
+  if (!inside(second * 2u)) {
+    return;
+  }
+  ivec2 at = ivec2(second);
+  Row above = rowAt(at - ivec2(0, 1));
+  Row here = rowAt(at);
+  Row next = rowAt(at + ivec2(0, 1));
+  for (int i = 0; i < int(SPREAD_CELLS); ++i) {
+    Row last = rowAt(at + ivec2(0, i + 2));
+    settleCell(second * 2u + uvec2(0u, 2u * uint(i)), above, here, next, last);
+    above = here;
+    here = next;
+    next = last;
   }
 }
