@@ -214,8 +214,8 @@ class VolumeRecorder {
     c_.dispatch(c_.find(eyeKeyOf(c_, targets_, planned_, interface_::RAYS_OF_SECONDS)), layout,
                 &push, groups(width), groups(height), eye, index);
     c_.orderShaders();
-    c_.dispatch(c_.find(spreadKeyOf(targets_)), layout, &push, groups(width), groups((height + SPREAD_CELLS - 1) / SPREAD_CELLS), eye,
-                index);
+    c_.dispatch(c_.find(spreadKeyOf(targets_)), layout, &push, groups(width),
+                groups((height + SPREAD_CELLS - 1) / SPREAD_CELLS), eye, index);
     c_.barrier({COMPUTE, SHADER_ACCESS}, {COMPUTE | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
                                           SHADER_ACCESS | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
     c_.dispatchIndirect(c_.find(eyeKeyOf(c_, targets_, planned_, interface_::RAYS_OF_LIST)),
