@@ -86,8 +86,13 @@ void sweep(const char* name, Range range, double bound, double floor, const Draw
   for (int n = 0; n < POINTS && bad < 3; ++n) {
     const std::array<float, N> at = draw(arguments);
     std::feclearexcept(FE_ALL_EXCEPT);
-    const volatile float value = single(at);
-    const volatile double truth = full(at);
+    // Read anew, so that no compiler computes before the flags are cleared.
+    std::array<float, N> used{};
+    for (size_t i = 0; i < N; ++i) {
+      used[i] = *const_cast<const volatile float*>(&at[i]);
+    }
+    const volatile float value = single(used);
+    const volatile double truth = full(used);
     const int raised = std::fetestexcept(trapped);
     const double v = double{value};
     const double t = truth;
