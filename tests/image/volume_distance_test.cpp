@@ -117,6 +117,33 @@ TEST(VolumeDistance, IsThatOfAnIndependentMarch) {
   }
 }
 
+// Rays in every second pixel: those between take on the neighbours' sums where these are smooth.
+TEST(VolumeDistance, IsThatOfAnIndependentMarchBetweenRaysToo) {
+  constexpr double EXTINCTION = 0.3 * reference::NOISE_CLOUD_SIZE / EDGE;
+  const RayMarch march(noiseField(EXTINCTION));
+  DistanceScene s;
+  addNoise(s.scene, EXTINCTION);
+  const double slab = EDGE * std::sqrt(3.0) / SLABS;  // at most
+  s.scene.setSky();
+  s.scene.setSun(30, 170);
+  for (const double wall : {0.0, 3100.0}) {
+    auto quality = make<WlkQuality>();
+    quality.slicing = WLK_SLICING_LIGHT_ALIGNED;
+    quality.scattering = WLK_SCATTERING_FORWARD;
+    quality.volumeResolution = WLK_VOLUME_RESOLUTION_HALF;
+    s.setQuality(0, quality);
+    s.wall = wall;
+    s.render();
+    const Errors errors = compare(s, march, wall);
+    std::printf("half, wall %.0f: mean %.2f m, worst %.1f m, hidden %.5f\n", wall,
+                errors.meanDistance, errors.worstDistance, errors.meanHidden);
+    // In so coarse a picture most pixels have rays of their own, the others see next to nothing.
+    EXPECT_LT(errors.meanDistance, 0.02 * slab);
+    EXPECT_LT(errors.worstDistance, 0.1 * slab);
+    EXPECT_LT(errors.meanHidden, 5e-4);
+  }
+}
+
 // Two boxes that overlap, one homogeneous in front: the second adds what the first lets through.
 TEST(VolumeDistance, VolumesAddUpInTheOrderOfTheirDistance) {
   constexpr double NEAR_EXTINCTION = 1e-3;
