@@ -225,7 +225,7 @@ void main() {
       float beta = extinction.x + extinction.y + extinction.z + extinction.w;
       eyeDepth += beta * stretch;
       float passed = through;
-      if (AIR_SEEN || TRANSPORT || AMBIENT) {
+      if (AIR_SEEN || TRANSPORT || AMBIENT || DISTANCE) {
         passed = exp(-min(eyeDepth * keep, EXP_CUT));
       }
       AirAt air = airAt(nodes, nearest + middle);

@@ -117,6 +117,30 @@ TEST(VolumeDistance, IsThatOfAnIndependentMarch) {
   }
 }
 
+// Nothing but the volume: passes leave out what only air needs.
+TEST(VolumeDistance, NeedsNoAir) {
+  constexpr double EXTINCTION = 0.3 * reference::NOISE_CLOUD_SIZE / EDGE;
+  const RayMarch march(noiseField(EXTINCTION));
+  DistanceScene s;
+  addNoise(s.scene, EXTINCTION);
+  const double slab = EDGE * std::sqrt(3.0) / SLABS;  // at most
+  for (const uint32_t slicing : {WLK_SLICING_LIGHT_ALIGNED, WLK_SLICING_HALF_ANGLE}) {
+    for (const bool lit : {false, true}) {
+      if (lit) {
+        s.scene.setSun(30, 170);
+      }
+      auto quality = make<WlkQuality>();
+      quality.slicing = slicing;
+      s.setQuality(0, quality);
+      s.render();
+      const Errors errors = compare(s, march, 0);
+      EXPECT_LT(errors.meanDistance, 0.02 * slab) << slicing << lit;
+      EXPECT_LT(errors.worstDistance, 0.1 * slab) << slicing << lit;
+      EXPECT_LT(errors.meanHidden, 5e-4) << slicing << lit;
+    }
+  }
+}
+
 // Rays in every second pixel: those between take on the neighbours' sums where these are smooth.
 TEST(VolumeDistance, IsThatOfAnIndependentMarchBetweenRaysToo) {
   constexpr double EXTINCTION = 0.3 * reference::NOISE_CLOUD_SIZE / EDGE;
