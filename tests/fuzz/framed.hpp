@@ -57,7 +57,8 @@ class Framed {
         break;
       case 2:
         // As far as there is memory to read.
-        value.structSize = input_.take<uint32_t>() % (sizeof(T) + sizeof tail_ + 1);
+        value.structSize =
+            static_cast<uint32_t>(input_.take<uint32_t>() % (sizeof(T) + sizeof tail_ + 1));
         break;
       case 3:
         value.structSize = sizeof(T) + sizeof tail_;

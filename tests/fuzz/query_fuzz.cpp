@@ -298,7 +298,7 @@ class Run {
               "a preset's air is accepted");
     }
     unsigned char structure[512];
-    const uint32_t room = input_.take<uint16_t>() % (sizeof structure + 1);
+    const auto room = static_cast<uint32_t>(input_.take<uint16_t>() % (sizeof structure + 1));
     (void)checkResult(wlkInitStruct(input_.below(60), room, structure));
     (void)checkResult(wlkInitPresetStruct(input_.below(6), input_.below(32), room, structure));
   }
