@@ -28,7 +28,8 @@ enum {
   WLK_LAYER_VOLUMES = 1u << 2,
   WLK_LAYER_SUN_DISK = 1u << 3,
   WLK_LAYER_GROUND = 1u << 4,
-  WLK_LAYER_ALL = 0x1f
+  WLK_LAYER_SURFACES = 1u << 5,
+  WLK_LAYER_ALL = 0x3f
 };
 
 enum { WLK_TARGET_RGBA16_FLOAT = 1, WLK_TARGET_RGBA32_FLOAT = 2, WLK_TARGET_B10G11R11_FLOAT = 3 };
@@ -386,7 +387,11 @@ enum {
    *  included. */
   WLK_PASS_AERIAL_PERSPECTIVE = 8,
   /** The volumes' mean distance per pixel (welkin_vulkan.h). */
-  WLK_PASS_VOLUME_DISTANCE = 9
+  WLK_PASS_VOLUME_DISTANCE = 9,
+  /** Light maps of a cloud surface. */
+  WLK_PASS_SURFACE_LIGHT = 10,
+  /** What pixels see of it. */
+  WLK_PASS_SURFACE = 11
 };
 
 /** Why a pass was recorded or not. */
@@ -414,7 +419,8 @@ typedef struct WlkPassStats {
   uint32_t reason;
   /** Dispatches or draws recorded. */
   uint32_t commands;
-  /** The volume, {0} for passes over the picture. */
+  /** The volume, {0} for passes over the picture; of passes of a cloud surface `id` is the
+   * surface's, which no volume's is. */
   WlkVolume volume;
   /** Shader invocations (threads) recorded. */
   uint64_t invocations;

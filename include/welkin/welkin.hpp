@@ -56,6 +56,7 @@ WELKIN_STRUCT_TYPE(::WlkAmbient, WLK_STRUCT_AMBIENT);
 WELKIN_STRUCT_TYPE(::WlkMediumInfo, WLK_STRUCT_MEDIUM_INFO);
 WELKIN_STRUCT_TYPE(::WlkMediumOptics, WLK_STRUCT_MEDIUM_OPTICS);
 WELKIN_STRUCT_TYPE(::WlkVolumeInfo, WLK_STRUCT_VOLUME_INFO);
+WELKIN_STRUCT_TYPE(::WlkSurfaceInfo, WLK_STRUCT_SURFACE_INFO);
 WELKIN_STRUCT_TYPE(::WlkVolumeUpload, WLK_STRUCT_VOLUME_UPLOAD);
 WELKIN_STRUCT_TYPE(::WlkVolumeBricks, WLK_STRUCT_VOLUME_BRICKS);
 WELKIN_STRUCT_TYPE(::WlkVolumeState, WLK_STRUCT_VOLUME_STATE);
@@ -213,6 +214,16 @@ struct VolumeCalls {
     (void)wlkDestroyVolume(context, handle);
   }
 };
+struct SurfaceCalls {
+  typedef WlkSurface Handle;
+  typedef WlkSurfaceInfo Info;
+  static WlkResult create(WlkContext context, const Info* info, Handle* handle) {
+    return wlkCreateSurface(context, info, handle);
+  }
+  static void destroy(WlkContext context, Handle handle) {
+    (void)wlkDestroySurface(context, handle);
+  }
+};
 struct ViewCalls {
   typedef WlkView Handle;
   typedef WlkViewInfo Info;
@@ -223,7 +234,7 @@ struct ViewCalls {
 };
 }  // namespace detail
 
-/** Owner of a medium, volume or view. Converts to the C handle. */
+/** Owner of a medium, volume, surface or view. Converts to the C handle. */
 template <class Calls>
 class Owner {
  public:
@@ -287,6 +298,7 @@ class Owner {
 
 typedef Owner<detail::MediumCalls> Medium;
 typedef Owner<detail::VolumeCalls> Volume;
+typedef Owner<detail::SurfaceCalls> Surface;
 typedef Owner<detail::ViewCalls> View;
 
 }  // namespace welkin

@@ -1,21 +1,45 @@
 // SPDX-License-Identifier: MIT
-// One surface in one picture, of a view or along a light, as 16-byte rows.
+// One surface in one picture, of a view or along a light, as 16-byte rows. Positions in views are
+// relative to the eye.
 struct SurfaceUniforms {
   // Rows: (mesh position, 1) to the homogeneous vertex of triangle.glsl.
   vec4 pixelX;
   vec4 pixelY;
   vec4 pixelW;
-  vec4 depth;      // to its depth: pixelW, or the distance along a light, m
+  vec4 depth;      // to its depth, m: along the view's axis, or along the light
   vec4 steps;      // x: depth of step 0; y: steps per m; z: most; w: depths from here on count
   ivec4 rect;      // pixels x0, y0, x1, y1 that the surface may cover
-  uvec4 triangle;  // x: how many
+  ivec4 shade;     // those that the view's pass runs over
+  uvec4 triangle;  // x: how many; y: rows of pixels in a strip; z: 1 if the picture is mirrored
+  vec4 axis;       // of the view
+  // Light map: texel u, v and depth in m of a position, as dot((position, 1), row); without the last
+  // they are its frame, lightZ towards the light.
+  vec4 lightX;
+  vec4 lightY;
+  vec4 lightZ;
+  vec4 map;        // x: texel, m; y: last level; z: texels along an edge
+  // Per metre: extinction, that without the forward peak, depth of the canonical cloud.
+  vec4 optics;
+  vec4 albedo;     // RGB, of light scattered once
+  vec4 orders[8];  // of each set of orders: part of its light that is not absorbed, RGB
 };
 
 // What the surface does in a pixel, zero before; depths in steps, so that the order of triangles is
 // all one.
 struct SurfaceCover {
   uint front;  // ~ the nearest depth at which a ray enters; 0 where it never does
+  uint leave;  // ~ the nearest at which one leaves
   uint back;   // farthest at which one leaves; 0 where it never does
   int chord;   // depths of leaving less those of entering
   int net;     // how often it leaves less how often it enters: of rays from outside 0
 };
+
+// Triangles that a texel of the light map shows, and 1 more: on the lit side and on the other.
+struct SurfaceFaces {
+  uint lit;
+  uint shaded;
+};
+
+const uint SURFACE_LANES = 64u;   // triangles of a workgroup
+const uint SURFACE_ROW = 32768u;  // workgroups along x
+const uint SURFACE_SMALL = 32u;   // pixels that one lane walks alone

@@ -47,11 +47,12 @@ float surfaceLogSource(sampler3D source, int set, SourcePlace at) {
   return mix(both.x, both.y, at.view - view) + at.outside;
 }
 
-// Radiance per unit irradiance and opacity: J at a point at `place` of the map, `shade` metres of
+// Radiance per unit irradiance and opacity, RGB: J at a point at `place` of the map, `shade` metres of
 // cloud below the light. The point is that at chordDepth(SURFACE_SAMPLE, canonical depth of the
 // chord); what the eye gets is this times oneMinusExp(canonical depth of the chord).
-float surfaceScattered(sampler2D columns, sampler2D faces, sampler3D source, sampler2D curves,
-                       SurfaceMap map, vec2 place, float shade, vec3 toEye) {
+// `left`: part of each set's light that the medium does not absorb.
+vec3 surfaceScattered(sampler2D columns, sampler2D faces, sampler3D source, sampler2D curves,
+                      SurfaceMap map, vec2 place, float shade, vec3 toEye, vec4 left[8]) {
   const vec3 TO_LIGHT = vec3(0.0, 0.0, 1.0);
   LightFootprint here = surfaceFootprint(columns, faces, map, place, 0.0);
   float through = footprintMean(here.through, here.coverage);
@@ -59,7 +60,7 @@ float surfaceScattered(sampler2D columns, sampler2D faces, sampler3D source, sam
   TangentSlab local = tangentSlab(through, through * share, directionOr(here.lit, TO_LIGHT),
                                   TO_LIGHT, toEye);
   float angle = slabAngle(-toEye.z, length(toEye.xy)) * 0.3183098861837907;
-  float sum = 0.0;
+  vec3 sum = vec3(0.0);
   for (int set = 0; set < SURFACE_SETS; ++set) {
     float spread = footprintSpread(set, local) / max(map.extinction, 1e-20);
     LightFootprint around =
@@ -68,8 +69,8 @@ float surfaceScattered(sampler2D columns, sampler2D faces, sampler3D source, sam
     SourcePlace at = sourcePlace(set, found.slab);
     float logPhase =
         textureLod(curves, vec2((angle * 180.0 + 0.5) / 181.0, (float(set) + 0.5) / 8.0), 0.0).x;
-    sum += sourceRadiance(surfaceLogSource(source, set, at), logPhase, found.slab.muLight,
-                          found.inside);
+    sum += left[set].xyz * sourceRadiance(surfaceLogSource(source, set, at), logPhase,
+                                          found.slab.muLight, found.inside);
   }
   return sum;
 }

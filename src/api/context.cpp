@@ -117,11 +117,13 @@ WlkContext_T::WlkContext_T(const WlkContextInfo& contextInfo)
       media(&memory, nextTag()),
       volumes(&memory, nextTag()),
       views(&memory, nextTag()),
+      surfaces(&memory, nextTag()),
       shadowMaps(&memory, nextTag()),
       pending(&memory),
       retired(&memory),
       imported(&memory),
       recordVolumes(&memory),
+      recordSurfaces(&memory),
       errorVolumes(&memory),
       shadowCasters(&memory) {
   wlkInitStruct(WLK_STRUCT_PLANET, sizeof air.planet, &air.planet);
@@ -209,6 +211,14 @@ ViewState& WlkContext_T::view(WlkView handle) {
   return *found;
 }
 
+SurfaceState& WlkContext_T::surface(WlkSurface handle) {
+  SurfaceState* found = surfaces.find(handle.id);
+  if (found == nullptr) {
+    fail(WLK_ERROR_INVALID_HANDLE, 0, "surface", "no such surface");
+  }
+  return *found;
+}
+
 void WlkContext_T::invalidate() {
   for (uint32_t i = 0; i < views.slotCount(); ++i) {
     if (ViewState* view = views.at(i)) {
@@ -239,6 +249,9 @@ void WlkContext_T::forgetBindings() {
           set.bound = {};
         }
         for (BoundSet& set : slot.ambient) {
+          set.bound = {};
+        }
+        for (BoundSet& set : slot.surfaces) {
           set.bound = {};
         }
       }

@@ -96,6 +96,7 @@ struct WlkContext_T {
   welkin::HandlePool<welkin::MediumState> media;
   welkin::HandlePool<welkin::VolumeState> volumes;
   welkin::HandlePool<welkin::ViewState> views;
+  welkin::HandlePool<welkin::SurfaceState> surfaces;
   welkin::HandlePool<welkin::ShadowMapState> shadowMaps;
 
   uint64_t frameIndex = 0;  // 0: no frame begun
@@ -107,8 +108,10 @@ struct WlkContext_T {
   std::pmr::vector<welkin::Retired> retired;
   std::pmr::vector<welkin::ImportedView> imported;
   std::pmr::vector<welkin::RecordVolume> recordVolumes;
+  std::pmr::vector<welkin::RecordSurface> recordSurfaces;
   std::pmr::vector<welkin::ErrorVolume> errorVolumes;  // of a view whose error is governed
   std::pmr::vector<welkin::ShadowCaster> shadowCasters;
+  welkin::SurfaceTables surfaceTables;  // where there is, or was, a surface
   welkin::vk::Image dummy2d;
   welkin::vk::Image dummy3d;
   welkin::vk::Image dummyArray;
@@ -126,6 +129,7 @@ struct WlkContext_T {
   welkin::MediumState& medium(WlkMedium handle);
   welkin::VolumeState& volume(WlkVolume handle);
   welkin::ViewState& view(WlkView handle);
+  welkin::SurfaceState& surface(WlkSurface handle);
   // Every view and map needs wlkPrepare again.
   void invalidate();
   // Forget what descriptor sets point to: handles may be reused for other objects.
@@ -159,6 +163,10 @@ void importAerial(WlkContext_T& context, const ViewState& view, const WlkVulkanV
 // The image of the volumes' distance among a view's targets, if there is one.
 void importDistance(WlkContext_T& context, const ViewState& view,
                     const WlkVulkanViewTargets& targets, ViewTargets& images);
+
+// Copies `region` into an image that shaders sample afterwards.
+void copyInto(const vk::Dispatch& vk, VkCommandBuffer commands, const vk::Buffer& from,
+              vk::Image& image, const VkBufferImageCopy& region, bool clearFirst);
 
 // Records pending uploads and first-use transitions.
 void recordUpdate(WlkContext_T& context, VkCommandBuffer commands);

@@ -93,6 +93,13 @@ WlkVolumeInfo volume() {
   return v;
 }
 
+WlkSurfaceInfo surface() {
+  auto s = blank<WlkSurfaceInfo>(WLK_STRUCT_SURFACE_INFO);
+  s.vertexStride = 3 * sizeof(float);
+  s.worldFromSurface[0] = s.worldFromSurface[5] = s.worldFromSurface[10] = 1.0;
+  return s;
+}
+
 WlkVolumeUpload upload() {
   auto u = blank<WlkVolumeUpload>(WLK_STRUCT_VOLUME_UPLOAD);
   u.format = WLK_FORMAT_R32_FLOAT;
@@ -216,6 +223,8 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
       return write(blank<WlkMediumOptics>(sType), structSize, structure);
     case WLK_STRUCT_VOLUME_INFO:
       return write(volume(), structSize, structure);
+    case WLK_STRUCT_SURFACE_INFO:
+      return write(surface(), structSize, structure);
     case WLK_STRUCT_VOLUME_UPLOAD:
       return write(upload(), structSize, structure);
     case WLK_STRUCT_VOLUME_BRICKS:

@@ -11,6 +11,7 @@
 #include "api/light_stores.hpp"
 #include "api/plan_input.hpp"
 #include "api/sky_light.hpp"
+#include "api/surface_data.hpp"
 #include "frame/light_store.hpp"
 
 namespace {
@@ -39,29 +40,6 @@ void clearOnce(const vk::Dispatch& vk, VkCommandBuffer commands, vk::Image& imag
   const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
   vk.CmdClearColorImage(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &zero, 1,
                         &range);
-  imageBarrier(vk, commands, image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, TRANSFER_TARGET, SAMPLED);
-  image.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-}
-
-// Copies `regions` into an image that shaders sample afterwards.
-void copyInto(const vk::Dispatch& vk, VkCommandBuffer commands, const vk::Buffer& from,
-              vk::Image& image, const VkBufferImageCopy& region, bool clearFirst) {
-  WlkVulkanImageState before = SAMPLED;
-  before.layout = image.layout;
-  if (image.layout == VK_IMAGE_LAYOUT_UNDEFINED) {
-    before = NOTHING;
-  }
-  imageBarrier(vk, commands, image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, before, TRANSFER_TARGET);
-  if (clearFirst && image.layout == VK_IMAGE_LAYOUT_UNDEFINED) {
-    const VkClearColorValue zero{};
-    const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    vk.CmdClearColorImage(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &zero, 1,
-                          &range);
-    imageBarrier(vk, commands, image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, TRANSFER_TARGET,
-                 TRANSFER_TARGET);
-  }
-  vk.CmdCopyBufferToImage(commands, from.handle(), image.handle(),
-                          VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
   imageBarrier(vk, commands, image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, TRANSFER_TARGET, SAMPLED);
   image.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 }
@@ -193,6 +171,28 @@ bool nearSpace(const WlkContext_T& c, const ViewState& view) {
 
 namespace welkin {
 
+void copyInto(const vk::Dispatch& vk, VkCommandBuffer commands, const vk::Buffer& from,
+              vk::Image& image, const VkBufferImageCopy& region, bool clearFirst) {
+  WlkVulkanImageState before = SAMPLED;
+  before.layout = image.layout;
+  if (image.layout == VK_IMAGE_LAYOUT_UNDEFINED) {
+    before = NOTHING;
+  }
+  imageBarrier(vk, commands, image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, before, TRANSFER_TARGET);
+  if (clearFirst && image.layout == VK_IMAGE_LAYOUT_UNDEFINED) {
+    const VkClearColorValue zero{};
+    const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    vk.CmdClearColorImage(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &zero, 1,
+                          &range);
+    imageBarrier(vk, commands, image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, TRANSFER_TARGET,
+                 TRANSFER_TARGET);
+  }
+  vk.CmdCopyBufferToImage(commands, from.handle(), image.handle(),
+                          VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+  imageBarrier(vk, commands, image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, TRANSFER_TARGET, SAMPLED);
+  image.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+}
+
 void recordUpdate(WlkContext_T& c, VkCommandBuffer commands) {
   const vk::Dispatch& vk = c.device->vk();
   c.bytesUploaded = 0;
@@ -204,7 +204,7 @@ void recordUpdate(WlkContext_T& c, VkCommandBuffer commands) {
   }
   // Room first: from the first command on nothing may throw.
   c.retired.reserve(c.retired.size() + c.pending.size() + 1 +
-                    size_t{SCATTERING_FORMS} * c.volumes.count());
+                    size_t{SCATTERING_FORMS} * c.volumes.count() + c.surfaces.count() + 1);
   clearOnce(vk, commands, c.dummy2d);
   clearOnce(vk, commands, c.dummy3d);
   clearOnce(vk, commands, c.dummyArray);
@@ -240,6 +240,7 @@ void recordUpdate(WlkContext_T& c, VkCommandBuffer commands) {
     entry.buffers[0] = std::move(upload.staging);
   }
   c.pending.clear();
+  uploadSurfaces(c, commands);
 }
 
 void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
@@ -273,6 +274,7 @@ void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
     c.recordVolumes.push_back(record);
   }
   input.volumes = view.planVolumes;
+  gatherSurfaces(c, view, input);
   makePlan(input, view.plan);
   controlPlan(c, view, input);
   planAmbient(c, view);
@@ -283,6 +285,8 @@ void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
   record.air = &c.air;
   record.sky = &c.skyLight;
   record.volumes = c.recordVolumes;
+  record.surfaces = c.recordSurfaces;
+  record.surfaceTables = &c.surfaceTables;
   record.dummy2d = c.dummy2d.view();
   record.dummy3d = c.dummy3d.view();
   record.dummyArray = c.dummyArray.view();
@@ -334,8 +338,11 @@ WlkResult wlkPrepare(WlkContext context) {
     features.ambient = c.air.ambient.mode != WLK_AMBIENT_OFF;
     prepareSkyLight(c);
     prepareLightStores(c);
+    prepareSurfaceLights(c);
+    features.surfaces = c.surfaces.count();
     c.recordVolumes.reserve(c.volumes.count());
     c.errorVolumes.reserve(c.volumes.count());
+    c.recordSurfaces.reserve(c.surfaces.count());
     for (uint32_t i = 0; i < c.views.slotCount(); ++i) {
       ViewState* view = c.views.at(i);
       if (view != nullptr && nearSpace(c, *view) && !view->resources.space) {
@@ -357,8 +364,10 @@ WlkResult wlkPrepare(WlkContext context) {
                   {fieldKinds.data(), kinds}, &c.memory);
       view->plan.volumes.reserve(c.volumes.count());
       view->planVolumes.reserve(c.volumes.count());
-      view->record.passes.reserve(passRoom(c.volumes.count()));
-      view->record.times.reserve(passRoom(c.volumes.count()));
+      view->plan.surfaces.reserve(c.surfaces.count());
+      view->planSurfaces.reserve(c.surfaces.count());
+      view->record.passes.reserve(passRoom(c.volumes.count(), c.surfaces.count()));
+      view->record.times.reserve(passRoom(c.volumes.count(), c.surfaces.count()));
       c.retireView(*view);
       std::swap(view->resources, carrier.resources);
       view->prepared = true;

@@ -34,6 +34,8 @@ const char* structName(uint32_t sType) {
       return "WlkMediumOptics";
     case WLK_STRUCT_PHASE_QUERY:
       return "WlkPhaseQuery";
+    case WLK_STRUCT_SURFACE_INFO:
+      return "WlkSurfaceInfo";
     case WLK_STRUCT_VOLUME_INFO:
       return "WlkVolumeInfo";
     case WLK_STRUCT_VOLUME_UPLOAD:

@@ -6,6 +6,7 @@
 
 #include "api/context.hpp"
 #include "api/light_shadow_input.hpp"
+#include "api/surface_data.hpp"
 
 namespace {
 
@@ -170,7 +171,7 @@ bool everythingUploaded(const WlkContext_T& c) {
       return false;
     }
   }
-  return true;
+  return surfacesUploaded(c);
 }
 
 VkImageView importView(WlkContext_T& c, const WlkVulkanImage& image, VkImageViewType type,

@@ -11,7 +11,7 @@ CompositeVariant compositeVariant(const ViewState& view, bool depth) {
   v.air = view.plan.airKind();
   v.fog = view.plan.fog;
   v.lights = view.plan.lightCount();
-  v.volumes = view.resources.volumeCapacity > 0;
+  v.volumes = view.resources.volumeCapacity + view.resources.surfaceCapacity > 0;
   v.depth = depth;
   v.ground = view.plan.ground;
   v.multiple = view.plan.multiple;

@@ -35,6 +35,30 @@ vk::PipelineKey spreadKey(bool depth, bool distance) {
   return key;
 }
 
+vk::PipelineKey surfaceCoverKey(bool depth) {
+  vk::PipelineKey key{vk::Pass::SurfaceCover, VK_FORMAT_UNDEFINED, {}};
+  key.constants[5] = depth;
+  return key;
+}
+
+vk::PipelineKey surfaceFacesKey() {
+  return {vk::Pass::SurfaceFaces, VK_FORMAT_UNDEFINED, {}};
+}
+
+vk::PipelineKey surfaceMapKey(bool fromLevel) {
+  vk::PipelineKey key{vk::Pass::SurfaceMap, VK_FORMAT_UNDEFINED, {}};
+  key.constants[3] = fromLevel;
+  return key;
+}
+
+vk::PipelineKey surfaceShadeKey(const SurfaceVariant& v, const SliceQuality& quality) {
+  vk::PipelineKey key{vk::Pass::SurfaceShade, VK_FORMAT_UNDEFINED, {v.air, v.fog, v.light}};
+  key.constants[6] = v.allLight;
+  key.constants[8] = quality.multipleSky;
+  key.constants[14] = v.distance;
+  return key;
+}
+
 vk::PipelineKey distanceKey() {
   return {vk::Pass::VolumeDistance, VK_FORMAT_UNDEFINED, {}};
 }
@@ -87,6 +111,22 @@ vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& v)
   return key;
 }
 
+static void prepareSurfaces(vk::Pipelines& pipelines, const ViewState& view,
+                            const SliceQuality& quality, const SurfaceVariant& usual) {
+  pipelines.prepare(surfaceFacesKey());
+  for (const bool either : {false, true}) {
+    pipelines.prepare(surfaceCoverKey(either));
+    pipelines.prepare(surfaceMapKey(either));
+  }
+  for (const bool distance : {false, view.volumeDistance}) {
+    for (const bool light : {false, usual.light}) {
+      for (const bool all : {false, light && usual.air > 0 && !usual.fog && quality.multipleSky}) {
+        pipelines.prepare(surfaceShadeKey({usual.air, usual.fog, light, all, distance}, quality));
+      }
+    }
+  }
+}
+
 void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
                       const SceneFeatures& features, std::span<const uint32_t> fieldKinds) {
   // Every state the frame may find the scene in without another wlkPrepare: light above or below
@@ -95,6 +135,9 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
   const bool sky = features.sky && (view.info.layers & WLK_LAYER_SKY) != 0;
   const uint32_t air = sky ? (features.absorber ? 2 : 1) : 0;
   const bool fog = features.fog && (view.info.layers & WLK_LAYER_FOG) != 0;
+  if (features.surfaces > 0) {
+    prepareSurfaces(pipelines, view, quality, {air, fog, features.lights > 0, false, false});
+  }
   for (uint32_t lights = 0; lights <= features.lights; ++lights) {
     for (const bool depth : {false, true}) {
       for (const uint32_t fields : fieldKinds) {
@@ -132,7 +175,7 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
       v.air = air;
       v.fog = fog;
       v.lights = lights;
-      v.volumes = !fieldKinds.empty();
+      v.volumes = !fieldKinds.empty() || features.surfaces > 0;
       v.depth = depth;
       if (sky && (view.info.layers & WLK_LAYER_SUN_DISK) != 0) {
         v.disk = features.shapedDisk ? 2 : 1;

@@ -182,10 +182,12 @@ PlanLights chooseLights(const PlanInput& in, const PlanetFrame& eye, bool& reach
     one.light = in.lights.light[i];
     one.reaches = lightReachesAir(in, one.light, eye);
     reachesAir = reachesAir || one.reaches;
-    for (const PlanVolume& volume : in.volumes) {
-      if (in.lights.count > 1 && volume.anyDensity) {
-        const VolumePlace place = placeOf(in, cornersOf(relativeBox(in, volume)));
-        one.brightness = std::max(one.brightness, brightnessAt(in, one.light, place));
+    for (const std::span<const PlanVolume> boxes : {in.volumes, in.surfaces}) {
+      for (const PlanVolume& box : boxes) {
+        if (in.lights.count > 1 && box.anyDensity) {
+          const VolumePlace place = placeOf(in, cornersOf(relativeBox(in, box)));
+          one.brightness = std::max(one.brightness, brightnessAt(in, one.light, place));
+        }
       }
     }
   }
@@ -217,7 +219,9 @@ uint32_t ambientReasonOf(const PlanInput& in) {
   return in.ambientOfAir && in.lights.count == 0 ? WLK_REASON_NO_LIGHT : WLK_REASON_NEEDED;
 }
 
-PlannedVolume planVolume(const PlanInput& in, const PlanLights& lights, const PlanVolume& volume) {
+// `layer`: the view's that it belongs to.
+PlannedVolume planVolume(const PlanInput& in, const PlanLights& lights, const PlanVolume& volume,
+                         uint64_t layer) {
   PlannedVolume result{};
   result.id = volume.id;
   result.index = volume.index;
@@ -230,7 +234,7 @@ PlannedVolume planVolume(const PlanInput& in, const PlanLights& lights, const Pl
     result.farthest = std::max(result.farthest, glm::length(corner));
   }
   uint32_t reason = WLK_REASON_NEEDED;
-  if ((in.layers & WLK_LAYER_VOLUMES) == 0) {
+  if ((in.layers & layer) == 0) {
     reason = WLK_REASON_LAYER_OFF;
   } else if (!volume.anyDensity) {
     reason = WLK_REASON_ZERO_DENSITY;
@@ -352,39 +356,47 @@ static uint32_t shadowReasonOf(const PlanInput& in, const Plan& plan) {
                                                 : WLK_REASON_NEEDED;
 }
 
+// Boxes of one layer, drawn ones first; returns their number.
+static uint32_t planAll(const PlanInput& in, std::span<const PlanVolume> boxes, uint64_t layer,
+                        Plan& plan, std::pmr::vector<PlannedVolume>& planned) {
+  planned.clear();
+  for (const PlanVolume& box : boxes) {
+    planned.push_back(planVolume(in, plan.lights, box, layer));
+  }
+  std::sort(planned.begin(), planned.end(), [](const PlannedVolume& a, const PlannedVolume& b) {
+    if (a.drawn != b.drawn) {
+      return a.drawn;
+    }
+    return a.distance != b.distance ? a.distance < b.distance : a.index < b.index;
+  });
+  uint32_t drawn = 0;
+  for (const PlannedVolume& box : planned) {
+    if (box.drawn) {
+      ++drawn;
+      plan.volumeRect = unite(plan.volumeRect, box.rect);
+    }
+  }
+  return drawn;
+}
+
 void makePlan(const PlanInput& in, Plan& plan) {
-  plan.volumes.clear();
   plan.quality = in.quality;
   plan.ambient = in.ambient;
-  plan.drawnCount = 0;
   plan.volumeRect = {};
   const PlanetFrame eye = planetFrameAt(in.planet, in.eye);
   bool reachesAir = false;
   plan.lights = chooseLights(in, eye, reachesAir);
-  for (const PlanVolume& volume : in.volumes) {
-    plan.volumes.push_back(planVolume(in, plan.lights, volume));
-  }
-  std::sort(plan.volumes.begin(), plan.volumes.end(),
-            [](const PlannedVolume& a, const PlannedVolume& b) {
-              if (a.drawn != b.drawn) {
-                return a.drawn;
-              }
-              return a.distance != b.distance ? a.distance < b.distance : a.index < b.index;
-            });
-  for (const PlannedVolume& volume : plan.volumes) {
-    if (volume.drawn) {
-      ++plan.drawnCount;
-      plan.volumeRect = unite(plan.volumeRect, volume.rect);
-    }
-  }
+  plan.drawnCount = planAll(in, in.volumes, WLK_LAYER_VOLUMES, plan, plan.volumes);
+  plan.surfaceCount = planAll(in, in.surfaces, WLK_LAYER_SURFACES, plan, plan.surfaces);
   plan.air = in.sky && (in.layers & WLK_LAYER_SKY) != 0;
   plan.absorber = plan.air && in.absorber;
   plan.fog = in.fog && (in.layers & WLK_LAYER_FOG) != 0;
   // The passes of a lit volume shade the air before it as well.
-  plan.lightReaches =
-      reachesAir || std::any_of(plan.volumes.begin(), plan.volumes.end(), [](const auto& volume) {
-        return volume.drawn && volume.lit && volume.lightReason != WLK_REASON_NO_SKIP_FLAG;
-      });
+  const auto shaded = [](const PlannedVolume& volume) {
+    return volume.drawn && volume.lit && volume.lightReason != WLK_REASON_NO_SKIP_FLAG;
+  };
+  plan.lightReaches = reachesAir || std::any_of(plan.volumes.begin(), plan.volumes.end(), shaded) ||
+                      std::any_of(plan.surfaces.begin(), plan.surfaces.end(), shaded);
   plan.light = plan.lightReaches || (plan.lights.count > 0 && in.quality.noSkip);
   plan.disk = false;
   plan.shapedDisk = false;
@@ -399,10 +411,12 @@ void makePlan(const PlanInput& in, Plan& plan) {
   if (plan.multiple && plan.lightReaches) {
     // Light that was scattered over the edge of night reaches the air before a volume that has no
     // light itself; the passes know only one kind of lit volume.
-    for (PlannedVolume& volume : plan.volumes) {
-      if (volume.drawn && !volume.lit) {
-        volume.lit = true;
-        volume.lightReason = WLK_REASON_NEEDED;
+    for (std::pmr::vector<PlannedVolume>* all : {&plan.volumes, &plan.surfaces}) {
+      for (PlannedVolume& volume : *all) {
+        if (volume.drawn && !volume.lit) {
+          volume.lit = true;
+          volume.lightReason = WLK_REASON_NEEDED;
+        }
       }
     }
   }
@@ -419,7 +433,7 @@ void makePlan(const PlanInput& in, Plan& plan) {
   plan.shadows = plan.shadowReason == WLK_REASON_NEEDED;
   plan.lightShadows = in.shadowMap && in.quality.lightShadows && (plan.air || plan.fog) &&
                       plan.lightReaches && plan.lights.light[0].index == in.shadowLight;
-  const bool something = plan.air || plan.fog || plan.drawnCount > 0;
+  const bool something = plan.air || plan.fog || plan.drawnCount > 0 || plan.surfaceCount > 0;
   plan.composite = something || in.mustWrite || in.quality.noSkip;
   plan.compositeReason =
       something || in.mustWrite

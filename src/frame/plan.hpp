@@ -106,6 +106,7 @@ struct PlanInput {
   uint32_t height = 0;
   SliceQuality quality{};
   std::span<const PlanVolume> volumes;
+  std::span<const PlanVolume> surfaces;  // their boxes
 };
 
 struct PlannedVolume {
@@ -127,10 +128,12 @@ struct PlannedVolume {
 };
 
 struct Plan {
-  explicit Plan(std::pmr::memory_resource* memory) : volumes(memory) {}
-  std::pmr::vector<PlannedVolume> volumes;  // drawn ones first, nearest first
-  uint32_t drawnCount = 0;
-  PixelRect volumeRect;  // union of the drawn ones
+  explicit Plan(std::pmr::memory_resource* memory) : volumes(memory), surfaces(memory) {}
+  std::pmr::vector<PlannedVolume> volumes;   // drawn ones first, nearest first
+  std::pmr::vector<PlannedVolume> surfaces;  // likewise
+  uint32_t drawnCount = 0;                   // of the volumes
+  uint32_t surfaceCount = 0;                 // of the surfaces
+  PixelRect volumeRect;                      // union of the drawn ones of both
   bool air = false;
   bool absorber = false;  // in the air
   bool fog = false;

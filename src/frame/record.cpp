@@ -11,6 +11,7 @@
 #include "frame/frame_commands.hpp"
 #include "frame/resources.hpp"
 #include "frame/sky_bindings.hpp"
+#include "frame/surface_record.hpp"
 #include "frame/transport.hpp"
 #include "frame/view_shadow.hpp"
 #include "frame/volume_record.hpp"
@@ -52,9 +53,7 @@ class Recorder {
     if (c_.aerial.recorded) {
       writeAerialFrame(c_, targets_.aerialHalf);
     }
-    for (const PlannedVolume& volume : view_.plan.volumes) {
-      recordVolume(c_, targets_, volume);
-    }
+    recordLayers();
     recordVolumeDistance(c_, targets_);
     recordComposite();
     recordAerial(c_, targets_, counterOffset());
@@ -76,11 +75,35 @@ class Recorder {
   }
 
  private:
+  // Volumes and surfaces, front to back; those that are not drawn come last in both lists.
+  void recordLayers() {
+    const Plan& plan = view_.plan;
+    auto volume = plan.volumes.begin();
+    auto surface = plan.surfaces.begin();
+    while (volume != plan.volumes.end() || surface != plan.surfaces.end()) {
+      const bool first = volume == plan.volumes.begin() && surface == plan.surfaces.begin();
+      const bool before =
+          surface == plan.surfaces.end() ||
+          (volume != plan.volumes.end() && volume->drawn >= surface->drawn &&
+           (volume->drawn > surface->drawn || volume->distance <= surface->distance));
+      if (before) {
+        recordVolume(c_, targets_, *volume, first);
+        ++volume;
+      } else {
+        recordSurface(c_, targets_, *surface, first);
+        ++surface;
+      }
+    }
+  }
+
   // Looks everything up first: a failure records nothing.
   void findPipelines() {
     const Plan& plan = view_.plan;
     for (const PlannedVolume& volume : plan.volumes) {
       findVolumePipelines(c_, targets_, volume);
+    }
+    for (const PlannedVolume& surface : plan.surfaces) {
+      findSurfacePipelines(c_, targets_, surface);
     }
     if (plan.multiple) {
       c_.find(skyTableKey(plan.airKind(), plan.fog, plan.lightCount(), plan.allLight));
@@ -104,18 +127,25 @@ class Recorder {
       const double peak = in_.volumes[view_.plan.volumes[i].index].state->transport->peak;
       sum += static_cast<float>(1 / std::max(1 - peak, 1e-3) - 1);
     }
-    return sum / static_cast<float>(std::max(view_.plan.drawnCount, 1U));
+    for (uint32_t i = 0; i < view_.plan.surfaceCount; ++i) {
+      const SurfaceOptics& optics = in_.surfaces[view_.plan.surfaces[i].index].state->optics;
+      sum += static_cast<float>(optics.whole / optics.smooth - 1);
+    }
+    const uint32_t count = view_.plan.drawnCount + view_.plan.surfaceCount;
+    return sum / static_cast<float>(std::max(count, 1U));
   }
 
   // m; the drawn ones come first, nearest first.
   double nearestVolume() const {
-    return view_.plan.drawnCount > 0 ? view_.plan.volumes[0].distance : 1e30;
+    const Plan& plan = view_.plan;
+    const double volume = plan.drawnCount > 0 ? plan.volumes[0].distance : 1e30;
+    return plan.surfaceCount > 0 ? std::min(volume, plan.surfaces[0].distance) : volume;
   }
 
   void start() {
     const Plan& plan = view_.plan;
-    anything_ = plan.composite || plan.drawnCount > 0 || c_.aerial.recorded ||
-                static_cast<bool>(targets_.volumeDistance);
+    anything_ = plan.composite || plan.drawnCount > 0 || plan.surfaceCount > 0 ||
+                c_.aerial.recorded || static_cast<bool>(targets_.volumeDistance);
     FrameRecord& record = view_.record;
     record.stats = {};
     record.stats.frameIndex = in_.frameIndex;

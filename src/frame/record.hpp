@@ -42,10 +42,18 @@ struct RecordVolume {
   std::array<VkImageView, WLK_MAX_FIELDS> externalViews{};
 };
 
+// Surfaces of the context in plan order of index.
+struct RecordSurface {
+  const SurfaceState* state = nullptr;
+  SurfaceLight* light = nullptr;  // of the view's size
+};
+
 struct RecordInput {
   const AirState* air = nullptr;
   const SkyLightState* sky = nullptr;
-  std::span<const RecordVolume> volumes;  // by PlannedVolume::index
+  std::span<const RecordVolume> volumes;    // by PlannedVolume::index
+  std::span<const RecordSurface> surfaces;  // by the plan's index
+  const SurfaceTables* surfaceTables = nullptr;
   VkImageView dummy2d = VK_NULL_HANDLE;
   VkImageView dummy3d = VK_NULL_HANDLE;
   VkImageView dummyArray = VK_NULL_HANDLE;  // of layers

@@ -10,6 +10,7 @@
 #include "frame/ambient.hpp"
 #include "frame/ladder.hpp"
 #include "frame/shadow_map_record.hpp"
+#include "frame/surface_record.hpp"
 #include "frame/transport.hpp"
 #include "frame/uniforms.hpp"
 #include "frame/view_shadow.hpp"
@@ -58,19 +59,21 @@ class Draft {
 };
 
 // Of each volume sets of its light inside, of that of the sky there and of what pixels see, of the
-// view those of the sky table and of the composite; the last of both kinds again for froxels.
+// view those of the sky table and of the composite; the last of both kinds again for froxels. Of
+// each surface two.
 VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t volumes,
-                          bool froxels) {
+                          uint32_t surfaces, bool froxels) {
   const uint32_t more = froxels ? 1 : 0;
-  const uint32_t sets = slots * ((3 + more) * volumes + 3 + more);
-  const std::array sizes{VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-                                              slots * ((6 + 2 * more) * volumes + 3 + more)},
-                         VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                              slots * ((9 + 4 * more) * volumes + 4 + 3 * more)},
-                         VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
-                                              slots * ((3 + more) * volumes + 5 + 2 * more)},
-                         VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                              slots * ((24 + 14 * more) * volumes + 8 + 7 * more)}};
+  const uint32_t sets = slots * ((3 + more) * volumes + 2 * surfaces + 3 + more);
+  const std::array sizes{
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                           slots * ((6 + 2 * more) * volumes + 4 * surfaces + 3 + more)},
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                           slots * ((9 + 4 * more) * volumes + 20 * surfaces + 4 + 3 * more)},
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+                           slots * ((3 + more) * volumes + 5 + 2 * more)},
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                           slots * ((24 + 14 * more) * volumes + 14 * surfaces + 8 + 7 * more)}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.maxSets = sets;
   info.poolSizeCount = static_cast<uint32_t>(sizes.size());
@@ -96,7 +99,7 @@ VkDescriptorSet makeSet(const vk::Device& device, VkDescriptorPool pool,
 void makeSlots(vk::Device& device, const vk::Pipelines& pipelines, ViewResources& r,
                uint32_t framesInFlight, std::pmr::memory_resource* memory) {
   const bool froxels = static_cast<bool>(r.aerial.uniforms);
-  r.pool = makePool(device, framesInFlight, r.volumeCapacity, froxels);
+  r.pool = makePool(device, framesInFlight, r.volumeCapacity, r.surfaceCapacity, froxels);
   r.slots.reserve(framesInFlight);
   for (uint32_t i = 0; i < framesInFlight; ++i) {
     ViewSlot& slot = r.slots.emplace_back(memory);
@@ -122,8 +125,12 @@ void makeSlots(vk::Device& device, const vk::Pipelines& pipelines, ViewResources
     for (BoundSet& set : slot.ambient) {
       set.set = makeSet(device, r.pool, pipelines.ambientSetLayout());
     }
+    slot.surfaces.resize(size_t{2} * r.surfaceCapacity);
+    for (BoundSet& set : slot.surfaces) {
+      set.set = makeSet(device, r.pool, pipelines.surfaceSetLayout());
+    }
     slot.passOfQuery.reserve(r.queryCount);
-    slot.passes.reserve(passRoom(r.volumeCapacity));
+    slot.passes.reserve(passRoom(r.volumeCapacity, r.surfaceCapacity));
     VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
     info.queryCount = r.queryCount;
@@ -277,7 +284,10 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   r.transportOffset = alignUp(r.fogOffset + FOG_CURVE_BYTES, both);
   const bool ambient = features.ambient && quality.ambientCells > 0;
   r.ambientStride = ambient ? alignUp(sizeof(interface_::AmbientUniforms), alignment) : 0;
-  r.ambientOffset = alignUp(r.transportOffset + volumeCount * r.transportStride, both);
+  r.surfaceStride = alignUp(sizeof(interface_::SurfaceUniforms), alignment);
+  r.surfaceOffset = alignUp(r.transportOffset + volumeCount * r.transportStride, both);
+  r.ambientOffset =
+      alignUp(r.surfaceOffset + VkDeviceSize{2} * features.surfaces * r.surfaceStride, both);
   r.slotStride = r.ambientOffset + alignUp(volumeCount * (r.ambientStride + r.volumeStride), both);
   r.uniforms =
       vk::Buffer(device, r.slotStride * framesInFlight,
@@ -288,20 +298,23 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   const uint32_t batches = (quality.sliceCount + quality.batchSize - 1) / quality.batchSize;
   // Volumes in every second pixel take three commands instead of one.
   r.queryCount =
-      6 + volumeCount * ((view.aerial ? 3 : 2) * batches + 3 + (quality.halfVolumes ? 2 : 0));
+      6 + SURFACE_DISPATCHES * features.surfaces +
+      volumeCount * ((view.aerial ? 3 : 2) * batches + 3 + (quality.halfVolumes ? 2 : 0));
   const VkDeviceSize pixels = VkDeviceSize{info.width} * info.height;
-  const VkDeviceSize stateBytes = volumeCount > 0 ? pixels * 16 : 16;
+  const uint32_t layers = volumeCount + features.surfaces;
+  const VkDeviceSize stateBytes = layers > 0 ? pixels * 16 : 16;
   r.frameState = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
   if (view.volumeDistance) {
     r.distances = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
   }
   const bool seconds = quality.halfVolumes && features.stores && volumeCount > 0;
-  if ((volumeCount > 1 && batches > 1 && features.batches) || seconds) {
+  if ((layers > 1 && volumeCount > 0 && batches > 1 && features.batches) || seconds) {
     const VkDeviceSize bytes = seconds ? std::max(secondsBytes(info), stateBytes) : stateBytes;
     r.volumeState =
         vk::Buffer(device, bytes,
                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, false);
   }
+  makeSurfaces(device, info, quality, features.surfaces, r);
   if (volumeCount > 0) {
     if (pixels * 16 > device.properties().limits.maxStorageBufferRange) {
       fail(WLK_ERROR_LIMIT_EXCEEDED, WLK_STRUCT_VIEW_INFO, "width",
@@ -337,10 +350,6 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
     makeHeadlessTargets(device, info, r);
   }
   makeSlots(device, pipelines, r, framesInFlight, memory);
-  view.plan.volumes.reserve(volumeCount);
-  view.planVolumes.reserve(volumeCount);
-  view.record.passes.reserve(passRoom(volumeCount));
-  view.record.times.reserve(passRoom(volumeCount));
   std::swap(view.resources, r);
   view.prepared = true;
 }

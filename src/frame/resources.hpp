@@ -21,13 +21,14 @@ struct SceneFeatures {
   bool stores = false;   // keep light for all views
   bool batches = false;  // do not
   bool ambient = false;  // volumes may be lit by sky and ground
+  uint32_t surfaces = 0;
 };
 
 VkFormat targetFormat(uint32_t welkinFormat);
 
 // Lines that a view's statistics have at most.
-constexpr size_t passRoom(size_t volumes) {
-  return 5 + 4 * volumes;
+constexpr size_t passRoom(size_t volumes, size_t surfaces) {
+  return 5 + 4 * volumes + 2 * surfaces;
 }
 
 // (Re)makes what the view needs for up to `volumeCount` volumes. Strong guarantee: on failure the
@@ -59,6 +60,14 @@ struct EyeVariant {
   uint32_t rays = interface_::RAYS_OF_PIXELS;  // of what: RAYS_OF_*
   bool distance = false;
 };
+struct SurfaceVariant {
+  uint32_t air;  // Plan::airKind
+  bool fog, light, allLight, distance;
+};
+vk::PipelineKey surfaceCoverKey(bool depth);
+vk::PipelineKey surfaceFacesKey();
+vk::PipelineKey surfaceMapKey(bool fromLevel);
+vk::PipelineKey surfaceShadeKey(const SurfaceVariant& variant, const SliceQuality& quality);
 vk::PipelineKey distanceKey();
 // What pixels between the rays of every second one take on.
 vk::PipelineKey spreadKey(bool depth, bool distance);

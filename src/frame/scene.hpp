@@ -16,6 +16,7 @@
 #include "frame/bricks.hpp"
 #include "frame/governor.hpp"
 #include "frame/plan.hpp"
+#include "frame/surface.hpp"
 #include "particles/diameter_nodes.hpp"
 #include "particles/medium.hpp"
 #include "vk/device.hpp"
@@ -254,6 +255,7 @@ struct ViewSlot {
   std::pmr::vector<BoundSet> froxels;    // of the volumes, where the view has aerial perspective
   std::pmr::vector<BoundSet> transport;  // of the volumes by PlannedVolume::index
   std::pmr::vector<BoundSet> ambient;    // likewise
+  std::pmr::vector<BoundSet> surfaces;   // two of each: of its light, of the view
   VkQueryPool queries = VK_NULL_HANDLE;
   uint64_t frameIndex = 0;                 // last frame recorded into this slot, 0 if none
   bool harvested = true;                   // its counters and timestamps were read
@@ -264,6 +266,7 @@ struct ViewSlot {
         froxels(memory),
         transport(memory),
         ambient(memory),
+        surfaces(memory),
         passOfQuery(memory),
         passes(memory) {}
 };
@@ -335,6 +338,14 @@ struct ViewResources {
   vk::Image shadowImage;  // where the quality asks for shadows on the air
   std::pmr::vector<ShadowCaster> shadowCasters;
   AerialResources aerial;
+  // Of surfaces, in turn: what triangles cover, which of them texels of a light map show, and its
+  // levels.
+  vk::Buffer surfaceCover;
+  vk::Buffer surfaceFaces;
+  vk::Buffer surfaceLevels;
+  VkDeviceSize surfaceStride = 0;
+  VkDeviceSize surfaceOffset = 0;
+  uint32_t surfaceCapacity = 0;
   vk::Buffer distances;  // of the volumes, where the view tells them
   vk::Buffer frameState;
   vk::Buffer volumeState;
@@ -367,7 +378,11 @@ struct ViewResources {
 
 struct ViewState {
   explicit ViewState(std::pmr::memory_resource* memory)
-      : resources(memory), plan(memory), planVolumes(memory), record(memory) {}
+      : resources(memory),
+        plan(memory),
+        planVolumes(memory),
+        planSurfaces(memory),
+        record(memory) {}
   WlkViewInfo info{};
   WlkCamera camera{};
   glm::dmat4 clipFromView{1.0};
@@ -381,6 +396,7 @@ struct ViewState {
   ViewResources resources;
   Plan plan;
   std::pmr::vector<PlanVolume> planVolumes;
+  std::pmr::vector<PlanVolume> planSurfaces;
   FrameRecord record;
   bool prepared = false;
   uint64_t lastFrame = 0;       // 0: none recorded yet

@@ -69,12 +69,14 @@ bool external(const VolumeState& volume) {
 
 class VolumeRecorder {
  public:
-  VolumeRecorder(FrameCommands& commands, const ViewTargets& targets, const PlannedVolume& planned)
+  VolumeRecorder(FrameCommands& commands, const ViewTargets& targets, const PlannedVolume& planned,
+                 bool first)
       : c_(commands),
         targets_(targets),
         planned_(planned),
         volume_(commands.in.volumes[planned.index]),
-        rank_(static_cast<uint32_t>(&planned - commands.view.plan.volumes.data())) {}
+        rank_(static_cast<uint32_t>(&planned - commands.view.plan.volumes.data())),
+        first_(first) {}
 
   void run() {
     WlkPassStats light = passStats("light slices", WLK_PASS_LIGHT_SLICES, planned_.id);
@@ -89,8 +91,8 @@ class VolumeRecorder {
     }
     if (planned_.drawn) {
       covered_ = planned_;
-      if (rank_ == 0) {
-        covered_.rect = c_.view.plan.volumeRect;  // the first volume also clears the union
+      if (first_) {
+        covered_.rect = c_.view.plan.volumeRect;  // the first one also clears the union
       }
       volume_.store != nullptr ? recordStored(light, eye) : recordBatches(light, eye);
     }
@@ -146,7 +148,7 @@ class VolumeRecorder {
       push.flags =
           (slab == 0 ? interface_::SLICE_FIRST_BATCH : 0) |
           (slab + quality.batchSize >= quality.sliceCount ? interface_::SLICE_LAST_BATCH : 0) |
-          (rank_ == 0 ? interface_::SLICE_FIRST_VOLUME : 0);
+          (first_ ? interface_::SLICE_FIRST_VOLUME : 0);
       if (planned_.lit) {
         c_.orderShaders();
         c_.dispatch(lightPipeline, layout, &push, groups(quality.lightSize),
@@ -166,7 +168,7 @@ class VolumeRecorder {
     push.slabCount = c_.quality.sliceCount;
     push.lightSize = c_.quality.lightSize;
     push.flags = interface_::SLICE_FIRST_BATCH | interface_::SLICE_LAST_BATCH |
-                 (rank_ == 0 ? interface_::SLICE_FIRST_VOLUME : 0);
+                 (first_ ? interface_::SLICE_FIRST_VOLUME : 0);
     if (planned_.lit) {
       const bool changing = external(*volume_.state);
       if (keptInStore(store, *volume_.state, c_.quality, uniforms) && !changing) {
@@ -197,9 +199,12 @@ class VolumeRecorder {
     }
     if (marchesFroxels(c_)) {
       use(froxelTarget());
-      const PixelRect rect = froxelRect(covered_.rect, c_.view);
+      const PixelRect rect = froxelRect(froxelsOf(), c_.view);
+      SliceConstants froxels = push;
+      froxels.flags &= ~interface_::SLICE_FIRST_VOLUME;
+      froxels.flags |= rank_ == 0 ? interface_::SLICE_FIRST_VOLUME : 0;
       c_.dispatch(c_.find(eyeKeyOf(c_, targets_, planned_, interface_::RAYS_OF_FROXELS)), layout,
-                  &push, groups(rect.x1 - rect.x0), groups(rect.y1 - rect.y0), c_.aerial.stats,
+                  &froxels, groups(rect.x1 - rect.x0), groups(rect.y1 - rect.y0), c_.aerial.stats,
                   c_.aerial.statsIndex, c_.aerial.endSlice - c_.aerial.firstSlice);
       use(pixelTarget());
     }
@@ -220,6 +225,11 @@ class VolumeRecorder {
                                           SHADER_ACCESS | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
     c_.dispatchIndirect(c_.find(eyeKeyOf(c_, targets_, planned_, interface_::RAYS_OF_LIST)),
                         c_.view.resources.volumeState.handle(), eye, index);
+  }
+
+  // Pixels whose froxels are marched: surfaces are in none, so that the first volume clears them.
+  const PixelRect& froxelsOf() const {
+    return rank_ == 0 ? c_.view.plan.volumeRect : planned_.rect;
   }
 
   EyeTarget pixelTarget() const {
@@ -252,7 +262,7 @@ class VolumeRecorder {
   VolumeUniforms bind(const vk::Image& light) {
     if (marchesFroxels(c_)) {
       PlannedVolume froxels = covered_;
-      froxels.rect = froxelRect(covered_.rect, c_.view);
+      froxels.rect = froxelRect(froxelsOf(), c_.view);
       write(froxelTarget(), froxels, light);
     }
     const EyeTarget pixels = pixelTarget();
@@ -334,6 +344,7 @@ class VolumeRecorder {
   const PlannedVolume& planned_;
   const RecordVolume& volume_;
   uint32_t rank_;
+  bool first_;
   PlannedVolume covered_{};  // with the pixels that the eye's pass runs over
 };
 
@@ -372,9 +383,9 @@ void findVolumePipelines(const FrameCommands& commands, const ViewTargets& targe
   }
 }
 
-void recordVolume(FrameCommands& commands, const ViewTargets& targets,
-                  const PlannedVolume& planned) {
-  VolumeRecorder(commands, targets, planned).run();
+void recordVolume(FrameCommands& commands, const ViewTargets& targets, const PlannedVolume& planned,
+                  bool first) {
+  VolumeRecorder(commands, targets, planned, first).run();
 }
 
 }  // namespace welkin

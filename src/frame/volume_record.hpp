@@ -11,7 +11,8 @@ void findVolumePipelines(const FrameCommands& commands, const ViewTargets& targe
                          const PlannedVolume& planned);
 
 // Records a volume of the plan, drawn or not, and appends its lines to the statistics.
-void recordVolume(FrameCommands& commands, const ViewTargets& targets,
-                  const PlannedVolume& planned);
+// `first`: no other volume or surface was recorded before it.
+void recordVolume(FrameCommands& commands, const ViewTargets& targets, const PlannedVolume& planned,
+                  bool first);
 
 }  // namespace welkin

@@ -145,10 +145,10 @@ void measure(SurfaceMesh& mesh) {
 SurfaceMesh makeSurfaceMesh(std::span<const float> positions, std::span<const uint32_t> indices) {
   checkInput(positions, indices);
   SurfaceMesh mesh;
-  const std::vector<uint32_t> welded = weld(positions, indices, mesh);
+  mesh.placeOf = weld(positions, indices, mesh);
   mesh.triangles.resize(indices.size() / 3);
   for (size_t i = 0; i < indices.size(); ++i) {
-    mesh.triangles[i / 3][i % 3] = welded[indices[i]];
+    mesh.triangles[i / 3][i % 3] = mesh.placeOf[indices[i]];
   }
   checkClosed(mesh);
   findBox(mesh);

@@ -75,6 +75,7 @@ struct ImageInfo {
   VkFormat format = VK_FORMAT_UNDEFINED;
   VkExtent3D extent{1, 1, 1};
   uint32_t layers = 1;
+  uint32_t levels = 1;
   VkImageUsageFlags usage = 0;
   bool arrayView = false;
 };
@@ -107,6 +108,6 @@ class Image {
 };
 
 VkImageView createView(const Device& device, VkImage image, VkFormat format, VkImageViewType type,
-                       VkImageAspectFlags aspect, uint32_t layers);
+                       VkImageAspectFlags aspect, uint32_t layers, uint32_t levels = 1);
 
 }  // namespace welkin::vk

@@ -23,7 +23,7 @@ namespace welkin::vk {
   X(DestroyPipelineLayout) X(CreateComputePipelines) X(CreateGraphicsPipelines)                 \
   X(DestroyPipeline) X(CreateDescriptorPool) X(DestroyDescriptorPool)                           \
   X(AllocateDescriptorSets) X(UpdateDescriptorSets) X(CreateQueryPool) X(DestroyQueryPool)      \
-  X(GetQueryPoolResults) X(CmdPipelineBarrier2) X(CmdCopyBufferToImage)                         \
+  X(GetQueryPoolResults) X(CmdPipelineBarrier2) X(CmdCopyBufferToImage) X(CmdCopyBuffer)         \
   X(CmdCopyImageToBuffer) X(CmdFillBuffer) X(CmdBindPipeline) X(CmdBindDescriptorSets)          \
   X(CmdPushConstants) X(CmdDispatch) X(CmdDispatchIndirect) X(CmdResetQueryPool)                \
   X(CmdWriteTimestamp2)                                                                         \

@@ -21,6 +21,10 @@
 #include "shadow_map_comp_spv.h"
 #include "shadow_resolve_comp_spv.h"
 #include "sky_table_comp_spv.h"
+#include "surface_cover_comp_spv.h"
+#include "surface_faces_comp_spv.h"
+#include "surface_map_comp_spv.h"
+#include "surface_shade_comp_spv.h"
 #include "transport_cells_comp_spv.h"
 #include "transport_depth_comp_spv.h"
 #include "transport_extrapolate_comp_spv.h"
@@ -70,6 +74,20 @@ VkSampler makeSampler(const Device& device, VkFilter filter) {
   info.magFilter = filter;
   info.minFilter = filter;
   info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+  VkSampler sampler = VK_NULL_HANDLE;
+  check(device.vk().CreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
+  return sampler;
+}
+
+VkSampler makeMeanSampler(const Device& device) {
+  VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
+  info.magFilter = VK_FILTER_LINEAR;
+  info.minFilter = VK_FILTER_LINEAR;
+  info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
+  info.maxLod = VK_LOD_CLAMP_NONE;
+  info.borderColor = VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK;
+  info.addressModeU = info.addressModeV = info.addressModeW =
+      VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
   VkSampler sampler = VK_NULL_HANDLE;
   check(device.vk().CreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
   return sampler;
@@ -179,6 +197,20 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
                               binding(BIND_DISTANCE_TARGET, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE)};
     distanceSet_ = makeSetLayout(device_, distance);
     distanceLayout_ = makeLayout(device_, distanceSet_);
+    std::array<VkDescriptorSetLayoutBinding, SURFACE_BINDING_COUNT> surface{};
+    for (uint32_t i = 0; i < SURFACE_BINDING_COUNT; ++i) {
+      surface[i] = binding(i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+    }
+    for (const uint32_t i : {BIND_SURFACE_FRAME, BIND_SURFACE_UNIFORMS}) {
+      surface[i].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    }
+    for (const uint32_t i :
+         {BIND_SURFACE_DEPTH, BIND_SURFACE_COLUMNS, BIND_SURFACE_FACES, BIND_SURFACE_SOURCE,
+          BIND_SURFACE_CURVES, BIND_SURFACE_SKY_TABLE, BIND_SURFACE_SKY_PEAK}) {
+      surface[i].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    }
+    surfaceSet_ = makeSetLayout(device_, surface);
+    surfaceLayout_ = makeLayout(device_, surfaceSet_);
     skySet_ = makeSetLayout(device_, sky);
     skyLayout_ = makeLayout(device_, skySet_);
     compositeSet_ = makeSetLayout(device_, composite);
@@ -186,6 +218,7 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
     compositeLayout_ = makeLayout(device_, compositeSet_);
     linear_ = makeSampler(device_, VK_FILTER_LINEAR);
     nearest_ = makeSampler(device_, VK_FILTER_NEAREST);
+    means_ = makeMeanSampler(device_);
   } catch (...) {
     destroy();
     throw;
@@ -204,6 +237,9 @@ void Pipelines::destroy() {
   }
   vk.DestroySampler(device, linear_, nullptr);
   vk.DestroySampler(device, nearest_, nullptr);
+  vk.DestroySampler(device, means_, nullptr);
+  vk.DestroyPipelineLayout(device, surfaceLayout_, nullptr);
+  vk.DestroyDescriptorSetLayout(device, surfaceSet_, nullptr);
   vk.DestroyPipelineLayout(device, skyLayout_, nullptr);
   vk.DestroyDescriptorSetLayout(device, skySet_, nullptr);
   vk.DestroyPipelineLayout(device, ambientLayout_, nullptr);
@@ -287,6 +323,14 @@ Pipelines::Compute Pipelines::computeOf(Pass pass) const {
       return {transport_view_comp_spv, transportLayout_};
     case Pass::VolumeDistance:
       return {volume_distance_comp_spv, distanceLayout_};
+    case Pass::SurfaceCover:
+      return {surface_cover_comp_spv, surfaceLayout_};
+    case Pass::SurfaceFaces:
+      return {surface_faces_comp_spv, surfaceLayout_};
+    case Pass::SurfaceMap:
+      return {surface_map_comp_spv, surfaceLayout_};
+    case Pass::SurfaceShade:
+      return {surface_shade_comp_spv, surfaceLayout_};
     case Pass::Aerial:
       return {aerial_comp_spv, compositeLayout_};
     default:

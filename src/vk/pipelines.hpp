@@ -39,7 +39,11 @@ enum class Pass : uint32_t {
   AmbientSource,
   AmbientView,
   Aerial,
-  VolumeDistance
+  VolumeDistance,
+  SurfaceCover,
+  SurfaceFaces,
+  SurfaceMap,
+  SurfaceShade
 };
 
 constexpr uint32_t MAX_CONSTANTS = 16;
@@ -136,6 +140,29 @@ enum DistanceBinding : uint32_t {
   BIND_DISTANCE_TARGET = 2
 };
 
+enum SurfaceBinding : uint32_t {
+  BIND_SURFACE_FRAME = 0,
+  BIND_SURFACE_UNIFORMS = 1,
+  BIND_SURFACE_VERTICES = 2,
+  BIND_SURFACE_INDICES = 3,
+  BIND_SURFACE_COVER = 4,
+  BIND_SURFACE_DEPTH = 5,
+  BIND_SURFACE_STATE = 6,
+  BIND_SURFACE_LIGHT_DEPTHS = 7,
+  BIND_SURFACE_FACE_IDS = 8,
+  BIND_SURFACE_LEVELS = 9,
+  BIND_SURFACE_COLUMNS = 10,
+  BIND_SURFACE_FACES = 11,
+  BIND_SURFACE_SOURCE = 12,
+  BIND_SURFACE_CURVES = 13,
+  BIND_SURFACE_PHASE = 14,
+  BIND_SURFACE_FOG_CURVE = 15,
+  BIND_SURFACE_SKY_TABLE = 16,
+  BIND_SURFACE_SKY_PEAK = 17,
+  BIND_SURFACE_DISTANCES = 18,
+  SURFACE_BINDING_COUNT = 19
+};
+
 class Pipelines {
  public:
   Pipelines(Device& device, std::pmr::memory_resource* host);
@@ -162,8 +189,12 @@ class Pipelines {
   VkPipelineLayout skyLayout() const { return skyLayout_; }
   VkPipelineLayout volumeLayout() const { return volumeLayout_; }
   VkPipelineLayout compositeLayout() const { return compositeLayout_; }
+  VkDescriptorSetLayout surfaceSetLayout() const { return surfaceSet_; }
+  VkPipelineLayout surfaceLayout() const { return surfaceLayout_; }
   VkSampler linear() const { return linear_; }
   VkSampler nearest() const { return nearest_; }
+  // Linear in place and level, 0 beyond the border.
+  VkSampler means() const { return means_; }
 
  private:
   void destroy();
@@ -189,6 +220,8 @@ class Pipelines {
   VkDescriptorSetLayout ambientSet_ = VK_NULL_HANDLE;
   VkPipelineLayout ambientLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout shadowLayout_ = VK_NULL_HANDLE;
+  VkDescriptorSetLayout surfaceSet_ = VK_NULL_HANDLE;
+  VkPipelineLayout surfaceLayout_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout distanceSet_ = VK_NULL_HANDLE;
   VkPipelineLayout distanceLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout transportLayout_ = VK_NULL_HANDLE;
@@ -197,6 +230,7 @@ class Pipelines {
   VkPipelineLayout compositeLayout_ = VK_NULL_HANDLE;
   VkSampler linear_ = VK_NULL_HANDLE;
   VkSampler nearest_ = VK_NULL_HANDLE;
+  VkSampler means_ = VK_NULL_HANDLE;
 };
 
 }  // namespace welkin::vk

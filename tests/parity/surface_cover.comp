@@ -28,10 +28,13 @@ uint surfaceLimit(ivec2 pixel) {
   return 0xffffffffu;
 }
 
+void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing, uint triangle);
 #include "pass/surface_cover.glsl"
+#include "pass/surface_cross.glsl"
 
+// Groups along x only: strips follow each other.
 void main() {
-  if (gl_WorkGroupID.x < uniforms.triangle.x) {
-    coverTriangle(uniforms, gl_WorkGroupID.x, gl_LocalInvocationIndex);
-  }
+  uint groups = (uniforms.triangle.x + SURFACE_LANES - 1u) / SURFACE_LANES;
+  uvec3 group = uvec3(gl_WorkGroupID.x % groups, 0u, gl_WorkGroupID.x / groups);
+  coverTriangles(uniforms, group, gl_LocalInvocationIndex);
 }

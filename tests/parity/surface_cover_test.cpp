@@ -20,6 +20,7 @@ using f32::vec4;
 using support::ClosedMesh;
 using uvec4 = glm::uvec4;
 using ivec4 = glm::ivec4;
+using uint = uint32_t;
 #include "interface/surface.glsl"
 
 constexpr int WIDTH = 57;
@@ -79,6 +80,7 @@ std::vector<SurfaceCover> onCpu(const ClosedMesh& mesh, const SurfaceUniforms& u
         if (hit.facing > 0.0f) {
           c.front = std::max(c.front, ~static_cast<uint32_t>(step));
         } else {
+          c.leave = std::max(c.leave, ~static_cast<uint32_t>(step));
           c.back = std::max(c.back, static_cast<uint32_t>(step));
         }
         c.chord -= static_cast<int>(hit.facing) * step;
@@ -92,7 +94,8 @@ std::vector<SurfaceCover> onCpu(const ClosedMesh& mesh, const SurfaceUniforms& u
 std::vector<SurfaceCover> onDevice(support::ComputeRunner& runner, const ClosedMesh& mesh,
                                    SurfaceUniforms u) {
   const auto triangles = static_cast<uint32_t>(mesh.triangle.size());
-  u.triangle.x = triangles;
+  constexpr uint32_t STRIPS = 3;
+  u.triangle = {triangles, (HEIGHT + STRIPS - 1) / STRIPS, 0, 0};
   std::vector<float> input(sizeof u / sizeof(float));
   std::memcpy(input.data(), &u, sizeof u);
   for (const glm::dvec3& p : mesh.position) {
@@ -106,7 +109,8 @@ std::vector<SurfaceCover> onDevice(support::ComputeRunner& runner, const ClosedM
   }
   const std::vector<float> output =
       runner.run(surface_cover_spv, static_cast<int>(mesh.position.size()), input,
-                 size_t{WIDTH} * HEIGHT * sizeof(SurfaceCover) / sizeof(float), triangles);
+                 size_t{WIDTH} * HEIGHT * sizeof(SurfaceCover) / sizeof(float),
+                 STRIPS * ((triangles + SURFACE_LANES - 1) / SURFACE_LANES));
   std::vector<SurfaceCover> cover(size_t{WIDTH} * HEIGHT);
   std::memcpy(cover.data(), output.data(), cover.size() * sizeof(SurfaceCover));
   return cover;
@@ -138,6 +142,8 @@ TEST(SurfaceCover, DeviceCoversAsTheModelTextSays) {
         if (found[i].back > 0 && expected[i].back > 0) {
           EXPECT_NEAR(found[i].chord, expected[i].chord, 4 * STEPS) << i;
           EXPECT_NEAR(static_cast<double>(found[i].back), static_cast<double>(expected[i].back),
+                      STEPS);
+          EXPECT_NEAR(static_cast<double>(~found[i].leave), static_cast<double>(~expected[i].leave),
                       STEPS);
           EXPECT_NEAR(static_cast<double>(~found[i].front), static_cast<double>(~expected[i].front),
                       STEPS);

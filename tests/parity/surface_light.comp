@@ -61,7 +61,12 @@ void main() {
   map.texel = data[row + 6];
   map.levels = 20.0;
   map.extinction = data[row + 7];
+  vec4 left[8];
+  for (int set = 0; set < 8; ++set) {
+    left[set] = vec4(1.0);
+  }
   results[i] = surfaceScattered(COLUMNS_MAP, FACES_MAP, 0u, CURVES_MAP, map,
                                 vec2(data[row], data[row + 1]), data[row + 2],
-                                vec3(data[row + 3], data[row + 4], data[row + 5]));
+                                vec3(data[row + 3], data[row + 4], data[row + 5]), left)
+                   .x;
 }

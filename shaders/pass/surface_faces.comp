@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Which triangle each texel of a light map shows on the lit side and on the other: of several at one
+// depth the last.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "common.glsl"
+
+layout(local_size_x = 64) in;
+#include "surface_mesh.glsl"
+layout(set = 0, binding = 8, std430) buffer Faces { SurfaceFaces faces[]; };
+
+void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing,
+                  uint triangle);
+#include "surface_cover.glsl"
+
+void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing,
+                  uint triangle) {
+  uint step_ = surfaceStep(s, crossing.depth);
+  if (crossing.facing > 0.0f && ~step_ == surfaceCover[at].front) {
+    atomicMax(faces[at].lit, triangle + 1u);
+  }
+  if (crossing.facing < 0.0f && step_ == surfaceCover[at].back) {
+    atomicMax(faces[at].shaded, triangle + 1u);
+  }
+}
+
+void main() {
+  coverTriangles(surface, gl_WorkGroupID, gl_LocalInvocationIndex);
+}

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Texels of a surface's light map from what its triangles cover, and three levels of means above.
+// Texels of the levels follow each other, coarser ones last; copies make images of them.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "common.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+// From a level that is there, not from triangles.
+layout(constant_id = 3) const bool FROM_LEVEL = false;
+#include "surface_mesh.glsl"
+#include "../interface/slices.glsl"
+layout(set = 0, binding = 7, std430) writeonly buffer Depths { vec4 depths[]; };
+layout(set = 0, binding = 8, std430) readonly buffer Faces { SurfaceFaces faces[]; };
+layout(set = 0, binding = 9, std430) buffer Levels { vec4 levels[]; };
+layout(push_constant) uniform Push { SliceConstants slice; };
+
+struct MapTexel {
+  vec4 column;  // coverage, through (m), x and y of the lit face's normal
+  vec4 face;    // z of that; the shaded face's
+};
+
+shared vec4 columns[64];
+shared vec4 sides[64];
+
+// Normal in the light's frame, of either sign; 0 where the triangle is seen edge on.
+vec3 normalOf(uint triangle) {
+  vec3 p[3];
+  for (uint i = 0u; i < 3u; ++i) {
+    vec4 at = vec4(surfaceVertex(surfaceIndex(3u * triangle + i)), 1.0f);
+    p[i] = vec3(dot(surface.pixelX, at) * surface.map.x, dot(surface.pixelY, at) * surface.map.x,
+                -dot(surface.depth, at));
+  }
+  return directionOr(cross(p[1] - p[0], p[2] - p[0]), vec3(0.0f));
+}
+
+MapTexel fromTriangles(uvec2 texel, uint size) {
+  uint at = texel.y * size + texel.x;
+  SurfaceCover cover = surfaceCover[at];
+  MapTexel result;
+  result.column = vec4(0.0f);
+  result.face = vec4(0.0f);
+  depths[at] = vec4(0.0f);
+  if (cover.chord > 0 && cover.front != 0u) {
+    float metre = 1.0f / surface.steps.y;
+    uint lit = faces[at].lit;
+    uint shaded = faces[at].shaded;
+    vec3 near = lit > 0u ? normalOf(lit - 1u) : vec3(0.0f);
+    vec3 far = shaded > 0u ? normalOf(shaded - 1u) : vec3(0.0f);
+    near = near.z < 0.0f ? -near : near;
+    far = far.z > 0.0f ? -far : far;
+    float through = float(cover.chord) * metre;
+    result.column = vec4(1.0f, through, near.xy);
+    result.face = vec4(near.z, far);
+    depths[at] = vec4(float(~cover.front) * metre, float(~cover.leave) * metre,
+                      float(cover.back) * metre, through);
+  }
+  return result;
+}
+
+void store(uint row, MapTexel texel) {
+  levels[row] = texel.column;
+  levels[slice.slabCount + row] = texel.face;
+}
+
+// slice.lightSize: texels along an edge of the level at hand; firstSlab: row its texels begin at;
+// slabCount: rows of all levels, behind which the faces' begin.
+void main() {
+  uint size = slice.lightSize;
+  uvec2 texel = gl_GlobalInvocationID.xy;
+  uint lane = gl_LocalInvocationIndex;
+  MapTexel mean;
+  mean.column = vec4(0.0f);
+  mean.face = vec4(0.0f);
+  uint first = slice.firstSlab;
+  if (texel.x < size && texel.y < size) {
+    uint row = first + texel.y * size + texel.x;
+    if (FROM_LEVEL) {
+      mean.column = levels[row];
+      mean.face = levels[slice.slabCount + row];
+    } else {
+      mean = fromTriangles(texel, size);
+      store(row, mean);
+    }
+  }
+  columns[lane] = mean.column;
+  sides[lane] = mean.face;
+  for (uint level = 1u; level <= 3u; ++level) {
+    memoryBarrierShared();
+    barrier();
+    first += size * size;
+    size /= 2u;
+    uint edge = 8u >> level;
+    uvec2 here = uvec2(lane % edge, lane / edge);
+    bool mine = lane < edge * edge && size > 0u;
+    if (mine) {
+      uint corner = 4u * edge * here.y + 2u * here.x;
+      mean.column = 0.25f * (columns[corner] + columns[corner + 1u] + columns[corner + 2u * edge] +
+                             columns[corner + 2u * edge + 1u]);
+      mean.face = 0.25f * (sides[corner] + sides[corner + 1u] + sides[corner + 2u * edge] +
+                           sides[corner + 2u * edge + 1u]);
+      uvec2 place = gl_WorkGroupID.xy * edge + here;
+      if (place.x < size && place.y < size) {
+        store(first + place.y * size + place.x, mean);
+      }
+    }
+    memoryBarrierShared();
+    barrier();
+    if (mine) {
+      columns[lane] = mean.column;
+      sides[lane] = mean.face;
+    }
+  }
+}

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+// What a surface sends to the eye in each pixel, in front of what is already there or behind it:
+// light scattered once along the chord, light scattered more often by surface_light.glsl, and what
+// the cloud and the air before it hide. [B08] 6 as docs/models.md has it.
+//
+// Light of the forward peak counts as passing, for what the cloud hides as for what reaches a point.
+// What has been in the peak exactly once is seen next to the light itself (a corona), dimmed by the
+// whole extinction.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "common.glsl"
+#include "../interface/slices.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+// Clear air: all of its light comes from the table.
+layout(constant_id = 6) const bool ALL_LIGHT = false;
+layout(constant_id = 8) const bool MULTIPLE_ENABLED = true;
+layout(constant_id = 14) const bool DISTANCE = false;
+
+layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
+layout(set = 0, binding = 6, std430) buffer FrameState { vec4 frameState[]; };
+layout(set = 0, binding = 7, std430) readonly buffer Depths { vec4 depths[]; };
+layout(set = 0, binding = 10) uniform sampler2D columns;
+layout(set = 0, binding = 11) uniform sampler2D faces;
+layout(set = 0, binding = 12) uniform sampler3D source;
+layout(set = 0, binding = 13) uniform sampler2D curves;
+// P without the forward peak, then what is in the peak, 1/sr: RGB at the nodes of a phase curve.
+layout(set = 0, binding = 14, std430) readonly buffer Phase { vec4 phase[]; };
+layout(set = 0, binding = 15, std430) readonly buffer FogCurve { vec4 fogCurve[]; };
+layout(set = 0, binding = 16) uniform sampler3D skyTable;
+layout(set = 0, binding = 17) uniform sampler3D skyPeak;
+layout(set = 0, binding = 18, std430) buffer Distances { vec4 distances[]; };
+layout(push_constant) uniform Push { SliceConstants slice; };
+
+#include "surface_mesh.glsl"
+#include "../interface/sky_table.glsl"
+#include "ray.glsl"
+#include "fog_curve.glsl"
+#include "air_column.glsl"
+#include "sky_lookup.glsl"
+#include "air_nodes.glsl"
+#include "surface_light.glsl"
+
+// Along a chord, of equal opacity.
+const int STRETCHES = 6;
+const float LONGEST_CHORD = 1.0e7f;  // m
+
+// Where a ray is inside, m from the eye: from front to leave, then up to back, `chord` in all.
+struct Inside {
+  float front;
+  float leave;
+  float back;
+  float chord;
+};
+
+Inside insideOf(SurfaceCover cover, float metre, float first) {
+  Inside inside;
+  // From inside the first crossing leaves.
+  inside.front = cover.front != 0u ? first + float(~cover.front) * metre : first;
+  inside.leave = first + float(~cover.leave) * metre;
+  if (cover.front == 0u || ~cover.leave < ~cover.front) {
+    inside.front = first;
+  }
+  inside.back = first + float(cover.back) * metre;
+  inside.chord = min(float(cover.chord) * metre, LONGEST_CHORD);
+  inside.back = max(inside.back, inside.front);
+  inside.leave = clamp(inside.leave, inside.front, inside.back);
+  return inside;
+}
+
+// Distance of the point that has `depth` metres of the cloud in front of it: of two stretches and a
+// gap that is exact.
+float pointAt(Inside inside, float depth) {
+  float near = inside.front + depth;
+  return near <= inside.leave ? near : max(inside.back - (inside.chord - depth), inside.leave);
+}
+
+// Metres of cloud between the light and a point, from what its texels show: between their middles
+// linear, where they show the cloud.
+float shadeAt(vec3 p) {
+  vec4 q = vec4(p, 1.0f);
+  float size = surface.map.z;
+  vec2 texel = clamp(vec2(dot(surface.lightX, q), dot(surface.lightY, q)) * size - 0.5f,
+                     vec2(0.0f), vec2(size - 1.001f));
+  vec2 low = floor(texel);
+  vec2 part = texel - low;
+  uint at = uint(low.y) * uint(size) + uint(low.x);
+  vec4 sum = vec4(0.0f);
+  float weights = 0.0f;
+  for (uint i = 0u; i < 4u; ++i) {
+    vec2 side = vec2(float(i & 1u), float(i >> 1u));
+    vec2 w = mix(1.0f - part, part, side);
+    vec4 there = depths[at + (i & 1u) + (i >> 1u) * uint(size)];
+    float weight = there.w > 0.0f ? w.x * w.y : 0.0f;
+    sum += weight * there;
+    weights += weight;
+  }
+  if (!(weights > 0.0f)) {
+    return 0.0f;
+  }
+  sum /= weights;
+  float depth = dot(surface.lightZ, q);
+  float before = depth <= sum.y ? depth - sum.x : max(sum.w - (sum.z - depth), sum.y - sum.x);
+  return clamp(before, 0.0f, sum.w);
+}
+
+vec3 phaseAt(uint table, vec3 direction) {
+  float x = phaseCoordinate(oneMinusCosine(direction, frame.lights[0].direction.xyz)) *
+            float(CURVE_NODES - 1);
+  uint i = min(uint(x), uint(CURVE_NODES - 2));
+  uint first = table * uint(CURVE_NODES) + i;
+  return mix(phase[first].xyz, phase[first + 1u].xyz, x - float(i));
+}
+
+// Light scattered at least twice: J at the point, per unit irradiance.
+vec3 scatteredAt(vec3 p, float shade, vec3 direction) {
+  vec4 q = vec4(p, 1.0f);
+  SurfaceMap map;
+  map.texel = surface.map.x;
+  map.levels = surface.map.y;
+  map.extinction = surface.optics.z;
+  float scale = surface.map.x * surface.map.z;
+  vec3 toEye = -vec3(dot(surface.lightX.xyz, direction) * scale,
+                     dot(surface.lightY.xyz, direction) * scale,
+                     -dot(surface.lightZ.xyz, direction));
+  return surfaceScattered(columns, faces, source, curves, map,
+                          vec2(dot(surface.lightX, q), dot(surface.lightY, q)), shade, toEye,
+                          surface.orders);
+}
+
+void main() {
+  ivec2 pixel = surface.shade.xy + ivec2(gl_GlobalInvocationID.xy);
+  if (pixel.x >= surface.shade.z || pixel.y >= surface.shade.w) {
+    return;
+  }
+  SurfaceCover cover;
+  cover.chord = 0;
+  if (all(greaterThanEqual(pixel, surface.rect.xy)) && all(lessThan(pixel, surface.rect.zw))) {
+    cover = surfaceCover[uint(pixel.y - surface.rect.y) * uint(surface.rect.z - surface.rect.x) +
+                         uint(pixel.x - surface.rect.x)];
+  }
+  uint index = uint(pixel.y) * uint(frame.viewport.x) + uint(pixel.x);
+  vec4 state = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  vec2 hidden = vec2(0.0f);
+  if (cover.chord > 0) {
+    vec3 direction = pixelDirection(frame, vec2(pixel));
+    float along = 1.0f / max(dot(direction, surface.axis.xyz), 1.0e-4f);
+    Inside inside = insideOf(cover, along / surface.steps.y, along * surface.steps.x);
+    float tau = surface.optics.y * inside.chord;
+    AirNodes nodes = airNodes(direction, inside.front, inside.back);
+    float through = 1.0f;
+    vec3 sum = vec3(0.0f);
+    vec3 smooth_ = LIGHT_ENABLED ? phaseAt(0u, direction) : vec3(0.0f);
+    vec3 peak = LIGHT_ENABLED ? phaseAt(1u, direction) : vec3(0.0f);
+    float begin = 0.0f;
+    ChordLight whole = emptyChord();
+    float shadeNear = LIGHT_ENABLED ? shadeAt(inside.front * direction) : 0.0f;
+    for (int i = 1; i <= STRETCHES; ++i) {
+      float end = chordDepth(float(i) / float(STRETCHES), tau) / max(surface.optics.y, 1.0e-20f);
+      float length_ = max(end - begin, 0.0f);
+      AirAt air = airAt(nodes, pointAt(inside, begin + 0.5f * length_));
+      float passed = exp(-min(surface.optics.y * end, EXP_CUT));
+      if (LIGHT_ENABLED) {
+        float shadeFar = shadeAt(pointAt(inside, end) * direction);
+        float once = through * segmentInscatter(surface.optics.y * shadeNear,
+                                                surface.optics.y * shadeFar,
+                                                surface.optics.y * length_);
+        float before = whole.inscatter;
+        whole = chordStretch(whole, surface.optics.x * shadeNear, surface.optics.x * shadeFar,
+                             surface.optics.x * length_);
+        sum += (smooth_ * once + peak * (whole.inscatter - before)) * surface.albedo.xyz *
+               air.light * air.transmittance;
+        shadeNear = shadeFar;
+      }
+      sum += air.radiance * (through - passed);
+      if (DISTANCE) {
+        hidden += (through - passed) * vec2(pointAt(inside, begin + 0.5f * length_), 1.0f);
+      }
+      through = passed;
+      begin = end;
+    }
+    if (LIGHT_ENABLED) {
+      float depth = surface.optics.z * inside.chord;
+      float sample_ = chordDepth(SURFACE_SAMPLE, depth) / max(surface.optics.z, 1.0e-20f);
+      float distance_ = pointAt(inside, min(sample_, inside.chord));
+      vec3 p = distance_ * direction;
+      AirAt air = airAt(nodes, distance_);
+      sum += oneMinusExp(depth) * scatteredAt(p, shadeAt(p), direction) * air.light *
+             air.transmittance;
+    }
+    state = vec4(sum, through);
+  }
+  bool first = (slice.flags & SLICE_FIRST_VOLUME) != 0u;
+  if (DISTANCE) {
+    vec4 kept = vec4(hidden, hidden);
+    if (!first) {
+      kept.xy = distances[index].xy + frameState[index].w * hidden;
+    }
+    distances[index] = kept;
+  }
+  if (!first) {
+    vec4 front = frameState[index];
+    state = vec4(front.xyz + front.w * state.xyz, front.w * state.w);
+  }
+  frameState[index] = state;
+}

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// Cloud surfaces: meshes filled with a medium.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "api/context.hpp"
+#include "api/surface_data.hpp"
+#include "surface/surface_mesh.hpp"
+
+namespace {
+
+using namespace welkin;
+
+constexpr uint32_t LARGEST_STRIDE = 4096;
+
+void checkStride(uint32_t stride) {
+  checkRange(WLK_STRUCT_SURFACE_INFO, "vertexStride", stride, 3 * sizeof(float), LARGEST_STRIDE);
+  if (stride % sizeof(float) != 0) {
+    fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_SURFACE_INFO, "vertexStride",
+         "vertexStride is %u, expected a multiple of 4", stride);
+  }
+}
+
+// Place of a vertex, whatever lies between them.
+std::array<float, 3> vertexAt(const float* positions, uint32_t stride, size_t i) {
+  std::array<float, 3> place;
+  std::memcpy(place.data(), reinterpret_cast<const char*>(positions) + i * stride, sizeof place);
+  return place;
+}
+
+WlkSurfaceInfo checkedInfo(const WlkSurfaceInfo* info) {
+  const WlkSurfaceInfo s = copyStruct(info, WLK_STRUCT_SURFACE_INFO);
+  checkNoChain(info);
+  checkRange(s.sType, "extinction", s.extinction, 0, 1e6);
+  checkRange(s.sType, "vertexCount", s.vertexCount, 4, 3.0 * SURFACE_TRIANGLES_MAX);
+  checkRange(s.sType, "triangleCount", s.triangleCount, 4, SURFACE_TRIANGLES_MAX);
+  checkStride(s.vertexStride);
+  checkPointer(s.positions, "positions");
+  checkPointer(s.indices, "indices");
+  checkTransform(s.sType, "worldFromSurface", s.worldFromSurface);
+  return s;
+}
+
+glm::dmat4x3 transformOf(const double* m) {
+  return {m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10], m[3], m[7], m[11]};
+}
+
+SurfaceMesh meshOf(const WlkSurfaceInfo& s) {
+  std::vector<float> places;
+  places.reserve(size_t{3} * s.vertexCount);
+  for (size_t i = 0; i < s.vertexCount; ++i) {
+    const std::array<float, 3> place = vertexAt(s.positions, s.vertexStride, i);
+    places.insert(places.end(), place.begin(), place.end());
+  }
+  return makeSurfaceMesh(places, {s.indices, size_t{3} * s.triangleCount});
+}
+
+vk::Buffer stage(vk::Device& device, const void* data, size_t bytes, VkBufferUsageFlags usage) {
+  vk::Buffer buffer(device, bytes, usage, true);
+  std::memcpy(buffer.data(), data, bytes);
+  return buffer;
+}
+
+// Everything of a new surface but its place among the context's.
+void fillSurface(WlkContext_T& c, const WlkSurfaceInfo& s, const SurfaceMesh& mesh,
+                 SurfaceState& state) {
+  vk::Device& device = *c.device;
+  state.extinction = s.extinction;
+  state.optics = surfaceOptics(c.medium(s.medium).medium, c.surfaceTables.asymmetry);
+  state.worldFromMesh = transformOf(s.worldFromSurface);
+  state.low = mesh.low;
+  state.high = mesh.high;
+  state.placeOf.assign(mesh.placeOf.begin(), mesh.placeOf.end());
+  state.places = static_cast<uint32_t>(mesh.positions.size());
+  state.triangles = static_cast<uint32_t>(mesh.triangles.size());
+  const size_t vertexBytes = mesh.positions.size() * sizeof mesh.positions[0];
+  const size_t indexBytes = mesh.triangles.size() * sizeof mesh.triangles[0];
+  constexpr VkBufferUsageFlags KEPT =
+      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+  const VkDeviceSize most = device.properties().limits.maxStorageBufferRange;
+  if (std::max(vertexBytes, indexBytes) > most) {
+    fail(WLK_ERROR_LIMIT_EXCEEDED, s.sType, "triangleCount",
+         "a mesh of %u triangles exceeds the device's storage buffers", s.triangleCount);
+  }
+  state.vertices = vk::Buffer(device, vertexBytes, KEPT, false);
+  state.indices = vk::Buffer(device, indexBytes, KEPT, false);
+  state.newVertices =
+      stage(device, mesh.positions.data(), vertexBytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+  state.newIndices =
+      stage(device, mesh.triangles.data(), indexBytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+  state.phase = stage(device, state.optics.curve.data(),
+                      state.optics.curve.size() * sizeof state.optics.curve[0],
+                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  state.optics.curve = {};
+}
+
+void checkPlaces(const float* positions, uint32_t count, uint32_t stride) {
+  for (size_t i = 0; i < count; ++i) {
+    for (const float x : vertexAt(positions, stride, i)) {
+      if (!(std::fabs(x) <= SURFACE_POSITION_MAX)) {  // NaN too
+        fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_SURFACE_INFO, "positions",
+             "vertex %zu: %g is not finite or beyond %g m", i, static_cast<double>(x),
+             static_cast<double>(SURFACE_POSITION_MAX));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+WlkResult wlkCreateSurface(WlkContext context, const WlkSurfaceInfo* info, WlkSurface* surface) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    checkPointer(surface, "surface");
+    const WlkSurfaceInfo s = checkedInfo(info);
+    vk::Device& device = c.requireDevice("wlkCreateSurface");
+    c.medium(s.medium);
+    const SurfaceMesh mesh = meshOf(s);
+    if (!c.surfaceTables.source) {
+      c.surfaceTables = makeSurfaceTables(device);
+    }
+    const uint64_t id = c.surfaces.create(&c.memory);
+    try {
+      fillSurface(c, s, mesh, *c.surfaces.find(id));
+    } catch (...) {
+      c.surfaces.destroy(id);
+      throw;
+    }
+    c.invalidate();
+    surface->id = id;
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkDestroySurface(WlkContext context, WlkSurface surface) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    retireSurface(c, c.surface(surface));
+    c.surfaces.destroy(surface.id);
+    c.forgetBindings();
+    c.collect();
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkSetSurfaceTransform(WlkContext context, WlkSurface surface,
+                                 const double worldFromSurface[12]) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    SurfaceState& state = c.surface(surface);
+    checkPointer(worldFromSurface, "worldFromSurface");
+    checkTransform(WLK_STRUCT_SURFACE_INFO, "worldFromSurface", worldFromSurface);
+    state.worldFromMesh = transformOf(worldFromSurface);
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkSetSurfacePositions(WlkContext context, WlkSurface surface, const float* positions,
+                                 uint32_t vertexCount, uint32_t vertexStride) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    SurfaceState& state = c.surface(surface);
+    vk::Device& device = c.requireDevice("wlkSetSurfacePositions");
+    checkPointer(positions, "positions");
+    checkStride(vertexStride);
+    if (vertexCount != state.placeOf.size()) {
+      fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_SURFACE_INFO, "vertexCount",
+           "vertexCount is %u, the surface was created with %zu", vertexCount,
+           state.placeOf.size());
+    }
+    checkPlaces(positions, vertexCount, vertexStride);
+    constexpr VkDeviceSize PLACE = 3 * sizeof(float);
+    if (!state.newVertices) {
+      state.newVertices =
+          vk::Buffer(device, PLACE * state.places, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true);
+    }
+    // Nothing throws from here on.
+    state.low.fill(SURFACE_POSITION_MAX);
+    state.high.fill(-SURFACE_POSITION_MAX);
+    for (size_t i = 0; i < vertexCount; ++i) {
+      const std::array<float, 3> place = vertexAt(positions, vertexStride, i);
+      std::memcpy(static_cast<char*>(state.newVertices.data()) + PLACE * state.placeOf[i],
+                  place.data(), PLACE);
+      for (size_t axis = 0; axis < 3; ++axis) {
+        state.low[axis] = std::min(state.low[axis], place[axis]);
+        state.high[axis] = std::max(state.high[axis], place[axis]);
+      }
+    }
+    return WLK_SUCCESS;
+  });
+}

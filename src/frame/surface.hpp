@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Cloud surfaces of a context: meshes on the GPU, light maps, and the constants of their passes.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "frame/plan.hpp"
+#include "surface/surface_optics.hpp"
+#include "vk/device.hpp"
+
+namespace welkin {
+
+namespace interface_ {
+using vec4 = glm::vec4;
+using ivec4 = glm::ivec4;
+using uvec4 = glm::uvec4;
+using uint = uint32_t;
+#include "interface/surface.glsl"
+}  // namespace interface_
+
+// What a light map was made from: uniforms of the light's picture and the mesh's version.
+struct SurfaceLightKey {
+  std::array<float, 20> rows{};
+  uint64_t version = 0;  // 0: nothing was made yet
+  bool operator==(const SurfaceLightKey&) const = default;
+};
+
+// Light maps of a surface, for views whose quality asks for that size.
+struct SurfaceLight {
+  uint32_t size = 0;
+  vk::Buffer depths;
+  vk::Image columns;
+  vk::Image faces;
+  SurfaceLightKey key;
+};
+
+struct SurfaceState {
+  explicit SurfaceState(std::pmr::memory_resource* memory) : placeOf(memory), lights(memory) {}
+  double extinction = 0;  // 1/m
+  SurfaceOptics optics;   // `curve` is on the GPU
+  glm::dmat4x3 worldFromMesh{1.0};
+  std::array<float, 3> low{};
+  std::array<float, 3> high{};
+  std::pmr::vector<uint32_t> placeOf;  // of the engine's vertices, among those of the GPU
+  uint32_t places = 0;
+  uint32_t triangles = 0;
+  vk::Buffer vertices;
+  vk::Buffer indices;
+  vk::Buffer phase;
+  vk::Buffer newVertices;  // until they are uploaded
+  vk::Buffer newIndices;
+  uint64_t version = 1;  // of the vertices
+  std::pmr::vector<SurfaceLight> lights;
+
+  // The unit box to the world.
+  glm::dmat4x3 worldFromBox() const;
+};
+
+// The canonical cloud, for every surface: made where there is one.
+struct SurfaceTables {
+  double asymmetry = 0;
+  vk::Image source;
+  vk::Image curves;
+  vk::Buffer newSource;  // until they are uploaded
+  vk::Buffer newCurves;
+};
+SurfaceTables makeSurfaceTables(vk::Device& device);
+
+// Texels along an edge of a surface's light map.
+uint32_t surfaceMapSize(const SliceQuality& quality);
+// Of all its levels together.
+constexpr uint32_t surfaceMapTexels(uint32_t size) {
+  uint32_t texels = 0;
+  for (; size > 0; size /= 2) {
+    texels += size * size;
+  }
+  return texels;
+}
+SurfaceLight makeSurfaceLight(vk::Device& device, uint32_t size);
+SurfaceLight* findSurfaceLight(SurfaceState& surface, uint32_t size);
+
+// Constants of the picture along the light: the same for every eye.
+void fillSurfaceLight(const SurfaceState& surface, const glm::dvec3& toLight, uint32_t size,
+                      interface_::SurfaceUniforms& out);
+SurfaceLightKey surfaceLightKey(const SurfaceState& surface,
+                                const interface_::SurfaceUniforms& uniforms);
+// A view's eye (world), projection of positions relative to it, and size in pixels.
+struct SurfaceEye {
+  glm::dvec3 eye{0};
+  glm::dmat4 clipFromEye{1.0};
+  uint32_t width = 0;
+  uint32_t height = 0;
+};
+// Of a view's; `shade`: the pixels of its pass.
+void fillSurfaceView(const SurfaceState& surface, const PlannedVolume& planned,
+                     const SurfaceEye& view, const glm::dvec3& toLight, uint32_t size,
+                     const PixelRect& shade, interface_::SurfaceUniforms& out);
+// Workgroups of the passes over triangles: x, y and strips of pixels.
+std::array<uint32_t, 3> surfaceGroups(const interface_::SurfaceUniforms& uniforms);
+
+}  // namespace welkin

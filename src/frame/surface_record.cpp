@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+#include "frame/surface_record.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "failure.hpp"
+#include "frame/resources.hpp"
+#include "frame/sky_bindings.hpp"
+
+namespace welkin {
+namespace {
+
+using interface_::FrameUniforms;
+using interface_::SliceConstants;
+using interface_::SurfaceCover;
+using interface_::SurfaceFaces;
+using interface_::SurfaceUniforms;
+
+constexpr uint32_t MAP_LEVELS = 3;  // above the one that a dispatch of the map's pass begins at
+
+vk::PipelineKey shadeKeyOf(const FrameCommands& c, const ViewTargets& targets,
+                           const PlannedVolume& planned) {
+  const Plan& plan = c.view.plan;
+  return surfaceShadeKey({plan.airKind(), plan.fog, planned.lit, plan.allLight,
+                          static_cast<bool>(targets.volumeDistance)},
+                         c.quality);
+}
+
+class SurfaceRecorder {
+ public:
+  SurfaceRecorder(FrameCommands& commands, const ViewTargets& targets, const PlannedVolume& planned)
+      : c_(commands),
+        targets_(targets),
+        planned_(planned),
+        surface_(*commands.in.surfaces[planned.index].state),
+        light_(*commands.in.surfaces[planned.index].light),
+        rank_(static_cast<uint32_t>(&planned - commands.view.plan.surfaces.data())) {}
+
+  void run(bool first) {
+    WlkPassStats light = passStats("surface light", WLK_PASS_SURFACE_LIGHT, planned_.id);
+    WlkPassStats eye = passStats("surface", WLK_PASS_SURFACE, planned_.id);
+    light.reason = planned_.lightReason;
+    eye.reason = planned_.eyeReason;
+    index_ = static_cast<uint32_t>(passes().size());
+    if (planned_.drawn) {
+      c_.firstUse(light_.columns);
+      c_.firstUse(light_.faces);
+      if (planned_.lit) {
+        recordLight(light);
+      }
+      recordEye(eye, first);
+    }
+    passes().push_back(light);
+    passes().push_back(eye);
+  }
+
+ private:
+  std::pmr::vector<WlkPassStats>& passes() const { return c_.view.record.passes; }
+  const ViewResources& resources() const { return c_.view.resources; }
+
+  // The light maps, unless they are there already.
+  void recordLight(WlkPassStats& stats) {
+    SurfaceUniforms uniforms;
+    fillSurfaceLight(surface_, c_.view.plan.lights.light[0].toLight, light_.size, uniforms);
+    const SurfaceLightKey now = surfaceLightKey(surface_, uniforms);
+    if (now == light_.key) {
+      stats.reason = c_.quality.noSkip ? WLK_REASON_NO_SKIP_FLAG : WLK_REASON_UNCHANGED;
+      if (stats.reason == WLK_REASON_UNCHANGED) {
+        return;
+      }
+    }
+    light_.key = now;
+    use(c_.slot.surfaces[2 * rank_], uniforms, 0);
+    clear(resources().surfaceCover, sizeof(SurfaceCover) * light_.size * light_.size);
+    clear(resources().surfaceFaces, sizeof(SurfaceFaces) * light_.size * light_.size);
+    orderClears();
+    triangles(surfaceCoverKey(false), uniforms, stats, index_);
+    c_.orderShaders();
+    triangles(surfaceFacesKey(), uniforms, stats, index_);
+    recordLevels(stats);
+    copyLevels(light_.columns, 0);
+    copyLevels(light_.faces, surfaceMapTexels(light_.size));
+  }
+
+  void recordLevels(WlkPassStats& stats) {
+    SliceConstants push{};
+    push.slabCount = surfaceMapTexels(light_.size);
+    bool fromLevel = false;
+    for (uint32_t size = light_.size; size > 1 || !fromLevel; size >>= MAP_LEVELS) {
+      push.lightSize = size;
+      c_.orderShaders();
+      c_.dispatch(c_.find(surfaceMapKey(fromLevel)), c_.pipelines.surfaceLayout(), &push,
+                  groups(size), groups(size), stats, index_);
+      fromLevel = true;
+      for (uint32_t level = 0; level < MAP_LEVELS; ++level) {
+        push.firstSlab += (size >> level) * (size >> level);
+      }
+    }
+  }
+
+  // From texels `first` on, level by level.
+  void copyLevels(vk::Image& image, uint32_t first) {
+    constexpr VkDeviceSize TEXEL = 16;
+    constexpr uint32_t MOST_LEVELS = 16;
+    std::array<VkBufferImageCopy, MOST_LEVELS> regions{};
+    uint32_t count = 0;
+    for (uint32_t size = light_.size; size > 0; size /= 2) {
+      VkBufferImageCopy& region = regions[count];
+      region.bufferOffset = TEXEL * first;
+      region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, count, 0, 1};
+      region.imageExtent = {size, size, 1};
+      first += size * size;
+      ++count;
+    }
+    const WlkVulkanImageState target{VK_IMAGE_LAYOUT_GENERAL, 0, VK_PIPELINE_STAGE_2_TRANSFER_BIT,
+                                     VK_ACCESS_2_TRANSFER_WRITE_BIT};
+    c_.barrier({COMPUTE, SHADER_ACCESS},
+               {VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT});
+    c_.image(image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, GENERAL_STATE, target);
+    c_.vk.CmdCopyBufferToImage(c_.commands, resources().surfaceLevels.handle(), image.handle(),
+                               VK_IMAGE_LAYOUT_GENERAL, count, regions.data());
+    c_.image(image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, target, GENERAL_STATE);
+  }
+
+  void recordEye(WlkPassStats& stats, bool first) {
+    SurfaceUniforms uniforms;
+    const PixelRect& shade = first ? c_.view.plan.volumeRect : planned_.rect;
+    const double* position = c_.view.camera.position;
+    fillSurfaceView(surface_, planned_,
+                    {{position[0], position[1], position[2]},
+                     c_.view.clipFromEye,
+                     c_.view.info.width,
+                     c_.view.info.height},
+                    c_.view.plan.lights.light[0].toLight, light_.size, shade, uniforms);
+    use(c_.slot.surfaces[2 * rank_ + 1], uniforms, 1);
+    const VkDeviceSize pixels =
+        VkDeviceSize{planned_.rect.x1 - planned_.rect.x0} * (planned_.rect.y1 - planned_.rect.y0);
+    if (pixels > 0) {
+      clear(resources().surfaceCover, sizeof(SurfaceCover) * pixels);
+      orderClears();
+      triangles(surfaceCoverKey(static_cast<bool>(targets_.depth)), uniforms, stats, index_ + 1);
+    }
+    c_.orderShaders();
+    SliceConstants push{};
+    push.flags = first ? interface_::SLICE_FIRST_VOLUME : 0;
+    c_.dispatch(c_.find(shadeKeyOf(c_, targets_, planned_)), c_.pipelines.surfaceLayout(), &push,
+                groups(shade.x1 - shade.x0), groups(shade.y1 - shade.y0), stats, index_ + 1);
+  }
+
+  void triangles(const vk::PipelineKey& key, const SurfaceUniforms& uniforms, WlkPassStats& stats,
+                 uint32_t index) {
+    const auto [x, y, z] = surfaceGroups(uniforms);
+    c_.dispatch(c_.find(key), c_.pipelines.surfaceLayout(), nullptr, x, y, stats, index, z);
+  }
+
+  // What readers before it have to have finished, too.
+  void clear(const vk::Buffer& buffer, VkDeviceSize bytes) {
+    c_.barrier({COMPUTE, SHADER_ACCESS},
+               {VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT});
+    c_.vk.CmdFillBuffer(c_.commands, buffer.handle(), 0, bytes, 0);
+  }
+
+  void orderClears() {
+    c_.barrier({VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
+               {COMPUTE, SHADER_ACCESS});
+  }
+
+  // Writes the constants of picture `which` (0: the light's, 1: the view's) and binds what the
+  // passes read and write.
+  void use(BoundSet& set, const SurfaceUniforms& uniforms, uint32_t which) {
+    const ViewResources& r = resources();
+    Bindings& b = c_.bindings;
+    const VkDeviceSize frame = c_.in.slot * r.slotStride;
+    const VkDeviceSize at = frame + r.surfaceOffset + (2 * rank_ + which) * r.surfaceStride;
+    std::memcpy(static_cast<char*>(r.uniforms.data()) + at, &uniforms, sizeof uniforms);
+    b.buffer(set, vk::BIND_SURFACE_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(),
+             frame, sizeof(FrameUniforms));
+    b.buffer(set, vk::BIND_SURFACE_UNIFORMS, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(),
+             at, sizeof(SurfaceUniforms));
+    b.buffer(set, vk::BIND_SURFACE_FOG_CURVE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+             r.uniforms.handle(), frame + r.fogOffset, FOG_CURVE_BYTES);
+    const auto storage = [&](uint32_t binding, const vk::Buffer& buffer) {
+      b.buffer(set, binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, buffer.handle(), 0, buffer.size());
+    };
+    storage(vk::BIND_SURFACE_VERTICES, surface_.vertices);
+    storage(vk::BIND_SURFACE_INDICES, surface_.indices);
+    storage(vk::BIND_SURFACE_COVER, r.surfaceCover);
+    storage(vk::BIND_SURFACE_STATE, r.frameState);
+    storage(vk::BIND_SURFACE_LIGHT_DEPTHS, light_.depths);
+    storage(vk::BIND_SURFACE_FACE_IDS, r.surfaceFaces);
+    storage(vk::BIND_SURFACE_LEVELS, r.surfaceLevels);
+    storage(vk::BIND_SURFACE_PHASE, surface_.phase);
+    storage(vk::BIND_SURFACE_DISTANCES, r.distances ? r.distances : r.frameState);
+    constexpr VkImageLayout READ = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    b.image(set, vk::BIND_SURFACE_DEPTH, targets_.depth ? targets_.depth.view : c_.in.dummy2d,
+            c_.pipelines.nearest(), READ);
+    b.image(set, vk::BIND_SURFACE_COLUMNS, light_.columns.view(), c_.pipelines.means(),
+            VK_IMAGE_LAYOUT_GENERAL);
+    b.image(set, vk::BIND_SURFACE_FACES, light_.faces.view(), c_.pipelines.means(),
+            VK_IMAGE_LAYOUT_GENERAL);
+    b.image(set, vk::BIND_SURFACE_SOURCE, c_.in.surfaceTables->source.view(), c_.pipelines.linear(),
+            READ);
+    b.image(set, vk::BIND_SURFACE_CURVES, c_.in.surfaceTables->curves.view(), c_.pipelines.linear(),
+            READ);
+    bindSkyLookup(b, c_.pipelines, r, set, {vk::BIND_SURFACE_SKY_TABLE, vk::BIND_SURFACE_SKY_PEAK},
+                  c_.in);
+    c_.vk.CmdBindDescriptorSets(c_.commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+                                c_.pipelines.surfaceLayout(), 0, 1, &set.set, 0, nullptr);
+  }
+
+  FrameCommands& c_;
+  const ViewTargets& targets_;
+  const PlannedVolume& planned_;
+  const SurfaceState& surface_;
+  SurfaceLight& light_;
+  uint32_t rank_;
+  uint32_t index_ = 0;  // of the light's line of the statistics
+};
+
+}  // namespace
+
+void findSurfacePipelines(const FrameCommands& commands, const ViewTargets& targets,
+                          const PlannedVolume& planned) {
+  if (!planned.drawn) {
+    return;
+  }
+  if (planned.lit) {
+    commands.find(surfaceCoverKey(false));
+    commands.find(surfaceFacesKey());
+    commands.find(surfaceMapKey(false));
+    commands.find(surfaceMapKey(true));
+  }
+  commands.find(surfaceCoverKey(static_cast<bool>(targets.depth)));
+  commands.find(shadeKeyOf(commands, targets, planned));
+  if (commands.in.surfaces[planned.index].light == nullptr) {
+    fail(WLK_ERROR_NOT_PREPARED, 0, "view", "call wlkPrepare before recording");
+  }
+}
+
+void recordSurface(FrameCommands& commands, const ViewTargets& targets,
+                   const PlannedVolume& planned, bool first) {
+  SurfaceRecorder(commands, targets, planned).run(first);
+}
+
+void makeSurfaces(vk::Device& device, const WlkViewInfo& info, const SliceQuality& quality,
+                  uint32_t surfaces, ViewResources& r) {
+  r.surfaceCapacity = surfaces;
+  if (surfaces == 0) {
+    return;
+  }
+  const uint32_t size = surfaceMapSize(quality);
+  const VkDeviceSize texels = VkDeviceSize{size} * size;
+  const VkDeviceSize pixels = std::max(VkDeviceSize{info.width} * info.height, texels);
+  const VkDeviceSize bytes = pixels * sizeof(SurfaceCover);
+  if (bytes > device.properties().limits.maxStorageBufferRange) {
+    fail(WLK_ERROR_LIMIT_EXCEEDED, WLK_STRUCT_VIEW_INFO, "width",
+         "%u x %u pixels with cloud surfaces exceed the device's storage buffers", info.width,
+         info.height);
+  }
+  constexpr VkBufferUsageFlags CLEARED =
+      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+  r.surfaceCover = vk::Buffer(device, bytes, CLEARED, false);
+  r.surfaceFaces = vk::Buffer(device, texels * sizeof(SurfaceFaces), CLEARED, false);
+  r.surfaceLevels =
+      vk::Buffer(device, VkDeviceSize{32} * surfaceMapTexels(size),
+                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, false);
+}
+
+VkDeviceSize uploadSurface(const vk::Device& device, VkCommandBuffer commands,
+                           SurfaceState& surface) {
+  const vk::Dispatch& vk = device.vk();
+  VkDeviceSize bytes = 0;
+  memoryBarrier(vk, commands, {COMPUTE, SHADER_ACCESS},
+                {VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT});
+  const auto copy = [&](const vk::Buffer& from, const vk::Buffer& to) {
+    if (from) {
+      const VkBufferCopy region{0, 0, from.size()};
+      vk.CmdCopyBuffer(commands, from.handle(), to.handle(), 1, &region);
+      bytes += from.size();
+    }
+  };
+  copy(surface.newVertices, surface.vertices);
+  copy(surface.newIndices, surface.indices);
+  memoryBarrier(vk, commands, {VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
+                {COMPUTE, SHADER_ACCESS});
+  ++surface.version;
+  return bytes;
+}
+
+}  // namespace welkin

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The passes of one cloud surface in one view: its light maps, and what the eye sees of it.
+#pragma once
+
+#include "frame/frame_commands.hpp"
+
+namespace welkin {
+
+// Throws NOT_PREPARED if a pipeline of the surface is missing; records nothing.
+void findSurfacePipelines(const FrameCommands& commands, const ViewTargets& targets,
+                          const PlannedVolume& planned);
+
+// Records a surface of the plan, drawn or not, and appends its lines to the statistics. `first`: no
+// other volume or surface was recorded before it.
+void recordSurface(FrameCommands& commands, const ViewTargets& targets,
+                   const PlannedVolume& planned, bool first);
+
+// Of a surface in a frame, at most.
+constexpr uint32_t SURFACE_DISPATCHES = 8;
+
+// Copies a waiting mesh; returns how many bytes.
+VkDeviceSize uploadSurface(const vk::Device& device, VkCommandBuffer commands,
+                           SurfaceState& surface);
+
+// Buffers that all surfaces of a view use in turn.
+void makeSurfaces(vk::Device& device, const WlkViewInfo& info, const SliceQuality& quality,
+                  uint32_t surfaces, ViewResources& resources);
+
+}  // namespace welkin

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+// Pictures of cloud surfaces: what they hide is the exact chord, whatever the eye, the order and
+// the age of the mesh; frames repeat; what is unchanged is not computed again.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/surface_scene.hpp"
+
+namespace welkin::test {
+namespace {
+
+constexpr float EXTINCTION = 8e-4f;
+constexpr std::array<double, 3> MIDDLE{100, 900, -4000};
+constexpr std::array<double, 3> HALF{700, 500, 900};
+
+SceneOptions separate() {
+  SceneOptions options;
+  options.composite = WLK_COMPOSITE_SEPARATE;
+  return options;
+}
+
+class SurfaceImage : public ::testing::Test {
+ protected:
+  ~SurfaceImage() override {
+    for (const std::string& message : scene.messages()) {
+      ADD_FAILURE() << message;
+    }
+  }
+
+  // Isotropic: there is no forward peak to take off.
+  WlkSurface addBox(const std::array<double, 3>& scale = HALF,
+                    const std::array<double, 3>& middle = MIDDLE) const {
+    return addSurface(scene, support::boxMesh(), scene.addHenyeyGreenstein(0), EXTINCTION, scale,
+                      middle);
+  }
+
+  // Unit vector of a pixel of the camera that looks along -z.
+  glm::dvec3 direction(uint32_t x, uint32_t y) const {
+    const auto camera = make<WlkCamera>();
+    const double focus = std::abs(static_cast<double>(camera.clipFromView[5]));
+    const double aspect = double(scene.options().width) / scene.options().height;
+    const double u = 2 * (x + 0.5) / scene.options().width - 1;
+    const double v = 1 - 2 * (y + 0.5) / scene.options().height;
+    return glm::normalize(glm::dvec3(u * aspect / focus, v / focus, -1));
+  }
+
+  // Length of a ray in the box, up to `wall` from the eye.
+  static double chord(const glm::dvec3& eye, const glm::dvec3& ray, double wall) {
+    double begin = 0;
+    double end = wall;
+    for (int i = 0; i < 3; ++i) {
+      const auto axis = static_cast<size_t>(i);
+      const double a = (MIDDLE[axis] - HALF[axis] - eye[i]) / ray[i];
+      const double b = (MIDDLE[axis] + HALF[axis] - eye[i]) / ray[i];
+      begin = std::max(begin, std::min(a, b));
+      end = std::min(end, std::max(a, b));
+    }
+    return std::max(end - begin, 0.0);
+  }
+
+  // Transmittances against the exact ones; counts pixels that the box covers.
+  int expectChords(const glm::dvec3& eye, const WlkHeadlessTargets* targets = nullptr,
+                   double wallDepth = 1e30) const {
+    // Two roundings to steps of 2^-20 of the box's depth, 2 km, and of floats at 5 km.
+    constexpr double LENGTH = 2 * (2000 * std::exp2(-20) + 5000 * 8 * 6e-8);
+    scene.setCamera({eye.x, eye.y, eye.z}, 0, 0);
+    scene.render(targets);
+    const Image image = scene.read(WLK_IMAGE_TRANSMITTANCE);
+    int covered = 0;
+    for (uint32_t y = 0; y < image.height; ++y) {
+      for (uint32_t x = 0; x < image.width; ++x) {
+        const glm::dvec3 ray = direction(x, y);
+        const double length = chord(eye, ray, wallDepth / -ray.z);
+        covered += length > 0 ? 1 : 0;
+        EXPECT_NEAR(image.at(x, y)[0], std::exp(-static_cast<double>(EXTINCTION) * length),
+                    static_cast<double>(EXTINCTION) * LENGTH + 4e-6)
+            << x << ' ' << y;
+      }
+    }
+    return covered;
+  }
+
+  const WlkPassStats pass(uint32_t kind) const {
+    for (const WlkPassStats& one : scene.passes()) {
+      if (one.pass == kind) {
+        return one;
+      }
+    }
+    ADD_FAILURE() << "no such pass";
+    return {};
+  }
+
+  HeadlessScene scene{separate()};
+};
+
+TEST_F(SurfaceImage, HidesByTheExactChord) {
+  addBox();
+  EXPECT_GT(expectChords({0, 2, 0}), 30);
+  EXPECT_GT(expectChords({0, 900, -4000}), 600);   // inside
+  EXPECT_GT(expectChords({0, 1500, -3000}), 100);  // beside a face
+  EXPECT_EQ(expectChords({0, 900, -8000}), 0);     // behind it
+}
+
+TEST_F(SurfaceImage, EndsAtOpaqueSurfaces) {
+  addBox();
+  const auto camera = make<WlkCamera>();
+  constexpr double WALL = 3800;  // through the box
+  const auto* m = camera.clipFromView;
+  const double depth = (static_cast<double>(m[10]) * -WALL + static_cast<double>(m[14])) /
+                       (static_cast<double>(m[11]) * -WALL + static_cast<double>(m[15]));
+  const std::vector<float> pixels(size_t{scene.options().width} * scene.options().height,
+                                  static_cast<float>(depth));
+  auto targets = make<WlkHeadlessTargets>();
+  targets.depth = pixels.data();
+  EXPECT_GT(expectChords({0, 2, 0}, &targets, WALL), 30);
+}
+
+// In the mirror the triangles run the other way round.
+TEST_F(SurfaceImage, MirroredMeshesAreTheSame) {
+  addBox({-HALF[0], HALF[1], HALF[2]});
+  EXPECT_GT(expectChords({0, 2, 0}), 30);
+}
+
+TEST_F(SurfaceImage, MovedMeshesShowInTheNextFrame) {
+  const WlkSurface surface = addBox({1, 1, 1}, {0, 0, 0});
+  scene.setSun(40, 60);
+  scene.render();
+  SurfaceArrays arrays(support::boxMesh());
+  for (size_t i = 0; i < arrays.positions.size(); ++i) {
+    arrays.positions[i] =
+        static_cast<float>(static_cast<double>(arrays.positions[i]) * HALF[i % 3] + MIDDLE[i % 3]);
+  }
+  check(wlkSetSurfacePositions(scene.context, surface, arrays.positions.data(), 8, 12));
+  EXPECT_GT(expectChords({0, 2, 0}), 30);
+  const Image moved = scene.read(WLK_IMAGE_RADIANCE);
+  // As if it had always been there.
+  check(wlkDestroySurface(scene.context, surface));
+  addSurface(scene, support::boxMesh(), scene.addHenyeyGreenstein(0), EXTINCTION, HALF, MIDDLE);
+  const Image fresh = scene.render();
+  EXPECT_GT(fresh.mean(), 0);
+  EXPECT_LT(relativeRms(moved, fresh), 1e-4);  // places are floats in one of them
+}
+
+TEST_F(SurfaceImage, FramesRepeatAndKeepTheLight) {
+  addSurface(scene, support::torusMesh(), scene.addMedium(), 0.01f, {900, 900, 900}, MIDDLE);
+  scene.setSun(40, 60);
+  const Image first = scene.render();
+  EXPECT_EQ(first.badValues(), 0u);
+  EXPECT_GT(first.mean(), 0);
+  EXPECT_EQ(pass(WLK_PASS_SURFACE_LIGHT).reason, uint32_t{WLK_REASON_NEEDED});
+  EXPECT_TRUE(scene.render() == first);
+  EXPECT_EQ(pass(WLK_PASS_SURFACE_LIGHT).reason, uint32_t{WLK_REASON_UNCHANGED});
+  EXPECT_EQ(pass(WLK_PASS_SURFACE_LIGHT).commands, 0u);
+  scene.setQuality(WLK_QUALITY_LOW, WLK_QUALITY_NO_SKIP);
+  EXPECT_TRUE(scene.render() == first);
+  EXPECT_GT(pass(WLK_PASS_SURFACE_LIGHT).commands, 0u);
+  scene.setQuality(WLK_QUALITY_LOW);
+  scene.setSun(40, 61);
+  EXPECT_FALSE(scene.render() == first);
+  EXPECT_EQ(pass(WLK_PASS_SURFACE_LIGHT).reason, uint32_t{WLK_REASON_NEEDED});
+}
+
+TEST_F(SurfaceImage, SkipsWhatIsNotSeen) {
+  const WlkSurface surface = addBox();
+  scene.setSun(40, 60);
+  scene.setCamera({0, 2, 0}, 180, 0);
+  scene.render();
+  EXPECT_EQ(pass(WLK_PASS_SURFACE).reason, uint32_t{WLK_REASON_OUTSIDE_VIEW});
+  EXPECT_EQ(pass(WLK_PASS_SURFACE).commands + pass(WLK_PASS_SURFACE_LIGHT).commands, 0u);
+  scene.setCamera({0, 2, 0}, 0, 0);
+  scene.clearLights();
+  const Image dark = scene.render();
+  EXPECT_EQ(dark.mean(), 0);
+  EXPECT_EQ(pass(WLK_PASS_SURFACE_LIGHT).reason, uint32_t{WLK_REASON_NO_LIGHT});
+  EXPECT_GT(pass(WLK_PASS_SURFACE).commands, 0u);
+  check(wlkDestroySurface(scene.context, surface));
+  scene.render();
+  EXPECT_EQ(scene.stats().dispatches, 1u);  // the composite that the targets need
+}
+
+// Whatever lies in front: radiances add behind its transmittance, transmittances multiply.
+TEST_F(SurfaceImage, LayersStandBehindEachOther) {
+  scene.setSun(30, 150);
+  const WlkSurface near = addBox({300, 300, 300}, {0, 700, -2500});
+  const Image nearLight = scene.render();
+  const Image nearPasses = scene.read(WLK_IMAGE_TRANSMITTANCE);
+  check(wlkDestroySurface(scene.context, near));
+  const auto expectOver = [&](const Image& farLight, const Image& farPasses) {
+    addBox({300, 300, 300}, {0, 700, -2500});
+    const Image light = scene.render();
+    const Image passes = scene.read(WLK_IMAGE_TRANSMITTANCE);
+    for (size_t i = 0; i < light.rgba.size(); ++i) {
+      if (i % 4 < 3) {
+        const float expected = nearLight.rgba[i] + nearPasses.rgba[i] * farLight.rgba[i];
+        EXPECT_NEAR(light.rgba[i], expected, 1e-6f * expected);
+        EXPECT_NEAR(passes.rgba[i], nearPasses.rgba[i] * farPasses.rgba[i], 1e-6f);
+      }
+    }
+    EXPECT_GT(farLight.mean(), 0);
+  };
+  const WlkSurface far = addBox();
+  const Image farLight = scene.render();
+  expectOver(farLight, scene.read(WLK_IMAGE_TRANSMITTANCE));
+  check(wlkDestroySurface(scene.context, far));
+}
+
+TEST_F(SurfaceImage, StandsBeforeAVolume) {
+  scene.setSun(30, 150);
+  scene.addBall(0.002f);
+  const Image farLight = scene.render();
+  const Image farPasses = scene.read(WLK_IMAGE_TRANSMITTANCE);
+  const WlkSurface near = addBox({300, 300, 300}, {0, 700, -2500});
+  const Image light = scene.render();
+  const Image passes = scene.read(WLK_IMAGE_TRANSMITTANCE);
+  (void)near;
+  int covered = 0;
+  for (uint32_t y = 0; y < light.height; ++y) {
+    for (uint32_t x = 0; x < light.width; ++x) {
+      const float through = passes.at(x, y)[0] / farPasses.at(x, y)[0];
+      covered += through < 0.9f ? 1 : 0;
+      EXPECT_LE(through, 1.000001f);
+      EXPECT_GE(light.at(x, y)[0], through * farLight.at(x, y)[0] * 0.99999f);
+      if (through > 0.999999f) {
+        EXPECT_EQ(light.at(x, y)[0], farLight.at(x, y)[0]);
+      }
+    }
+  }
+  EXPECT_GT(covered, 10);
+}
+
+}  // namespace
+}  // namespace welkin::test
