@@ -18,8 +18,8 @@ ANY = r".*"
 # Ours are repository paths; "generated" files exist in the build tree only and count as others.
 RULES = [
     (r"include/welkin/core\.h", r"-", STANDARD),
-    (r"include/welkin/(scene|view|query|welkin)\.h",
-     r"include/welkin/(core|scene|view|query)\.h", STANDARD),
+    (r"include/welkin/(scene|surface|view|query|welkin)\.h",
+     r"include/welkin/(core|scene|surface|view|query)\.h", STANDARD),
     (r"include/welkin/welkin_vulkan\.h", r"include/welkin/welkin\.h", VULKAN),
     (r"include/welkin/.*\.hpp", r"include/welkin/.*", STANDARD),
     (r"shaders/model/(model|sky/sky)\.glsl", r"shaders/model/.*", r"-"),
@@ -34,12 +34,14 @@ RULES = [
     (r"src/model/.*", r"src/model/.*|shaders/model/.*", rf"{STANDARD}|{GLM}"),
     (r"src/particles/.*", r"src/(model|particles)/.*", rf"{STANDARD}|{GLM}"),
     (r"src/tables/.*", r"src/(model|particles|tables)/.*", rf"{STANDARD}|{GLM}"),
+    (r"src/surface/.*", r"src/(model|particles|tables|surface)/.*|src/[^/]*\.hpp|include/welkin/.*",
+     rf"{STANDARD}|{GLM}"),
     # The plan is pure data: it may compute with the model, but sees no Vulkan and no tables.
     (r"src/frame/plan.*",
      r"src/(frame/plan.*|model/.*|[^/]*\.hpp)|include/welkin/welkin\.h|shaders/interface/.*",
      rf"{STANDARD}|{GLM}"),
     (r"src/frame/.*",
-     r"src/(frame|tables|particles|model|vk)/.*|src/[^/]*\.hpp|include/welkin/.*"
+     r"src/(frame|surface|tables|particles|model|vk)/.*|src/[^/]*\.hpp|include/welkin/.*"
      r"|shaders/interface/.*",
      rf"{STANDARD}|{GLM}|{VULKAN}"),
     (r"src/vk/.*", r"src/vk/.*|src/[^/]*\.hpp|include/welkin/.*|shaders/interface/.*",

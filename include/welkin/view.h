@@ -383,14 +383,12 @@ enum {
   WLK_PASS_SHADOW_MAP = 6,
   /** Light of sky and ground inside a volume (wlkSetAmbient). */
   WLK_PASS_VOLUME_AMBIENT = 7,
-  /** Aerial perspective for the engine's transparents (welkin_vulkan.h), its march through volumes
-   *  included. */
+  /** Aerial perspective for the engine's transparents, its march through volumes included. */
   WLK_PASS_AERIAL_PERSPECTIVE = 8,
   /** The volumes' mean distance per pixel (welkin_vulkan.h). */
   WLK_PASS_VOLUME_DISTANCE = 9,
-  /** Light maps of a cloud surface. */
+  /** Of a cloud surface: its light maps, and what pixels see of it. */
   WLK_PASS_SURFACE_LIGHT = 10,
-  /** What pixels see of it. */
   WLK_PASS_SURFACE = 11
 };
 
@@ -419,8 +417,7 @@ typedef struct WlkPassStats {
   uint32_t reason;
   /** Dispatches or draws recorded. */
   uint32_t commands;
-  /** The volume, {0} for passes over the picture; of passes of a cloud surface `id` is the
-   * surface's, which no volume's is. */
+  /** The volume, {0} for passes over the picture; for those of a cloud surface `id` is its. */
   WlkVolume volume;
   /** Shader invocations (threads) recorded. */
   uint64_t invocations;

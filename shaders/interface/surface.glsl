@@ -7,13 +7,12 @@ struct SurfaceUniforms {
   vec4 pixelY;
   vec4 pixelW;
   vec4 depth;      // to its depth, m: along the view's axis, or along the light
-  vec4 steps;      // x: depth of step 0; y: steps per m; z: most; w: depths from here on count
+  vec4 steps;      // x: depth of step 0; y: steps per m; z: most; w: depths from here count
   ivec4 rect;      // pixels x0, y0, x1, y1 that the surface may cover
   ivec4 shade;     // those that the view's pass runs over
   uvec4 triangle;  // x: how many; y: rows of pixels in a strip; z: 1 if the picture is mirrored
   vec4 axis;       // of the view
-  // Light map: texel u, v and depth in m of a position, as dot((position, 1), row); without the last
-  // they are its frame, lightZ towards the light.
+  // Light map: texel u, v and depth in m of a position, as dot((position, 1), row).
   vec4 lightX;
   vec4 lightY;
   vec4 lightZ;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which triangle each texel of a light map shows on the lit side and on the other: of several at one
-// depth the last.
+// Which triangle each texel of a light map shows on the lit side and on the other: of several at
+// one depth the last.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"

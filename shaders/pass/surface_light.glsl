@@ -47,8 +47,8 @@ float surfaceLogSource(sampler3D source, int set, SourcePlace at) {
   return mix(both.x, both.y, at.view - view) + at.outside;
 }
 
-// Radiance per unit irradiance and opacity, RGB: J at a point at `place` of the map, `shade` metres of
-// cloud below the light. The point is that at chordDepth(SURFACE_SAMPLE, canonical depth of the
+// Radiance per unit irradiance and opacity, RGB: J at a point at `place` of the map, `shade` metres
+// of cloud below the light. The point is that at chordDepth(SURFACE_SAMPLE, canonical depth of the
 // chord); what the eye gets is this times oneMinusExp(canonical depth of the chord).
 // `left`: part of each set's light that the medium does not absorb.
 vec3 surfaceScattered(sampler2D columns, sampler2D faces, sampler3D source, sampler2D curves,

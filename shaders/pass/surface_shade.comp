@@ -3,7 +3,7 @@
 // light scattered once along the chord, light scattered more often by surface_light.glsl, and what
 // the cloud and the air before it hide. [B08] 6 as docs/models.md has it.
 //
-// Light of the forward peak counts as passing, for what the cloud hides as for what reaches a point.
+// Light of the forward peak counts as passing, for what is hidden as for what reaches a point.
 // What has been in the peak exactly once is seen next to the light itself (a corona), dimmed by the
 // whole extinction.
 #version 460

@@ -71,7 +71,7 @@ class SurfaceRecorder {
       }
     }
     light_.key = now;
-    use(c_.slot.surfaces[2 * rank_], uniforms, 0);
+    use(c_.slot.surfaces[size_t{2} * rank_], uniforms, 0);
     clear(resources().surfaceCover, sizeof(SurfaceCover) * light_.size * light_.size);
     clear(resources().surfaceFaces, sizeof(SurfaceFaces) * light_.size * light_.size);
     orderClears();
@@ -133,7 +133,7 @@ class SurfaceRecorder {
                      c_.view.info.width,
                      c_.view.info.height},
                     c_.view.plan.lights.light[0].toLight, light_.size, shade, uniforms);
-    use(c_.slot.surfaces[2 * rank_ + 1], uniforms, 1);
+    use(c_.slot.surfaces[size_t{2} * rank_ + 1], uniforms, 1);
     const VkDeviceSize pixels =
         VkDeviceSize{planned_.rect.x1 - planned_.rect.x0} * (planned_.rect.y1 - planned_.rect.y0);
     if (pixels > 0) {
