@@ -235,6 +235,9 @@ static void objects(WlkContext context) {
   WlkVolumeField field;
   WlkMedium medium = {0};
   WlkVolume volume = {0};
+  WlkSurfaceInfo surfaceInfo;
+  WlkSurface surface = {0};
+  static const float places[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
 
   INIT(WLK_STRUCT_MEDIUM_INFO, mediumInfo);
   EXPECT(WLK_SUCCESS, wlkCreateMedium(context, &mediumInfo, &medium));
@@ -257,6 +260,12 @@ static void objects(WlkContext context) {
   INIT(WLK_STRUCT_VOLUME_STATE, state);
   EXPECT(WLK_ERROR_INVALID_HANDLE, wlkGetVolumeState(context, volume, &state));
   EXPECT(WLK_ERROR_INVALID_HANDLE, wlkDestroyVolume(context, volume));
+  INIT(WLK_STRUCT_SURFACE_INFO, surfaceInfo);
+  REQUIRE(surfaceInfo.vertexStride == 3 * sizeof(float));
+  EXPECT(WLK_ERROR_INVALID_ARGUMENT, wlkCreateSurface(context, &surfaceInfo, &surface));
+  EXPECT(WLK_ERROR_INVALID_HANDLE, wlkSetSurfaceTransform(context, surface, moved));
+  EXPECT(WLK_ERROR_INVALID_HANDLE, wlkSetSurfacePositions(context, surface, places, 4, 12));
+  EXPECT(WLK_ERROR_INVALID_HANDLE, wlkDestroySurface(context, surface));
   EXPECT(WLK_SUCCESS, wlkDestroyMedium(context, medium));
   EXPECT(WLK_ERROR_INVALID_HANDLE, wlkDestroyMedium(context, medium));
 }

@@ -182,6 +182,17 @@ AT(WlkVolumeState, deviceMemory, 48);
 AT(WlkVolumeState, hostMemory, 56);
 AT(WlkVolumeState, pendingMemory, 64);
 
+SIZE(WlkSurfaceInfo, 152);
+HEAD(WlkSurfaceInfo);
+AT(WlkSurfaceInfo, medium, 16);
+AT(WlkSurfaceInfo, extinction, 24);
+AT(WlkSurfaceInfo, vertexCount, 28);
+AT(WlkSurfaceInfo, vertexStride, 32);
+AT(WlkSurfaceInfo, triangleCount, 36);
+AT(WlkSurfaceInfo, positions, 40);
+AT(WlkSurfaceInfo, indices, 48);
+AT(WlkSurfaceInfo, worldFromSurface, 56);
+
 SIZE(WlkViewInfo, 48);
 HEAD(WlkViewInfo);
 AT(WlkViewInfo, width, 16);

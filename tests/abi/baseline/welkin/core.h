@@ -101,6 +101,7 @@ typedef enum WlkStructType {
   WLK_STRUCT_MEDIUM_OPTICS = 23,
   WLK_STRUCT_VOLUME_BRICKS = 24,
   WLK_STRUCT_VOLUME_STATE = 25,
+  WLK_STRUCT_SURFACE_INFO = 26,
   WLK_STRUCT_VIEW_INFO = 30,
   WLK_STRUCT_CAMERA = 31,
   WLK_STRUCT_QUALITY = 32,
@@ -166,6 +167,10 @@ typedef struct WlkMedium {
 typedef struct WlkVolume {
   uint64_t id;
 } WlkVolume;
+/** A closed mesh filled with a cloud. */
+typedef struct WlkSurface {
+  uint64_t id;
+} WlkSurface;
 /** A camera with its targets' size and composite mode. */
 typedef struct WlkView {
   uint64_t id;

@@ -28,7 +28,8 @@ enum {
   WLK_LAYER_VOLUMES = 1u << 2,
   WLK_LAYER_SUN_DISK = 1u << 3,
   WLK_LAYER_GROUND = 1u << 4,
-  WLK_LAYER_ALL = 0x1f
+  WLK_LAYER_SURFACES = 1u << 5,
+  WLK_LAYER_ALL = 0x3f
 };
 
 enum { WLK_TARGET_RGBA16_FLOAT = 1, WLK_TARGET_RGBA32_FLOAT = 2, WLK_TARGET_B10G11R11_FLOAT = 3 };
@@ -126,6 +127,19 @@ enum {
   WLK_QUALITY_LIGHT_SHADOWS = 1u << 2
 };
 
+/** In how many pixels the rays of volumes are marched. */
+enum {
+  /** The level's choice: FULL on every level. */
+  WLK_VOLUME_RESOLUTION_DEFAULT = 0,
+  /** In each. */
+  WLK_VOLUME_RESOLUTION_FULL = 1,
+  /** In every second one along both axes. Those between take on what their neighbours see where
+   *  that is smooth (to 0.64 / sliceCount) and ends at the same surface; all others have rays of
+   *  their own. Only where the light of all slabs is kept (see batchSize): batches and froxels are
+   *  marched as with FULL. Opaque surfaces, air and fog stay at full resolution. */
+  WLK_VOLUME_RESOLUTION_HALF = 2
+};
+
 /** Who chooses between the lowest level and `level`. Controls other than LEVEL leave sliceCount,
  *  batchSize and lightBufferSize 0. */
 enum {
@@ -173,7 +187,8 @@ typedef struct WlkQuality {
   float errorTarget;
   /** WLK_QUALITY_* below which no control goes, at most `level`. Default LOW. */
   uint32_t lowestLevel;
-  uint32_t reserved0;
+  /** WLK_VOLUME_RESOLUTION_*. Default DEFAULT. */
+  uint32_t volumeResolution;
 } WlkQuality;
 
 /** Sets a view's quality. Needs wlkPrepare, unless only timeBudget_ms or errorTarget of a
@@ -368,11 +383,13 @@ enum {
   WLK_PASS_SHADOW_MAP = 6,
   /** Light of sky and ground inside a volume (wlkSetAmbient). */
   WLK_PASS_VOLUME_AMBIENT = 7,
-  /** Aerial perspective for the engine's transparents (welkin_vulkan.h), its march through volumes
-   *  included. */
+  /** Aerial perspective for the engine's transparents, its march through volumes included. */
   WLK_PASS_AERIAL_PERSPECTIVE = 8,
   /** The volumes' mean distance per pixel (welkin_vulkan.h). */
-  WLK_PASS_VOLUME_DISTANCE = 9
+  WLK_PASS_VOLUME_DISTANCE = 9,
+  /** Of a cloud surface: its light maps, and what pixels see of it. */
+  WLK_PASS_SURFACE_LIGHT = 10,
+  WLK_PASS_SURFACE = 11
 };
 
 /** Why a pass was recorded or not. */
@@ -400,7 +417,7 @@ typedef struct WlkPassStats {
   uint32_t reason;
   /** Dispatches or draws recorded. */
   uint32_t commands;
-  /** The volume, {0} for passes over the picture. */
+  /** The volume, {0} for passes over the picture; for those of a cloud surface `id` is its. */
   WlkVolume volume;
   /** Shader invocations (threads) recorded. */
   uint64_t invocations;

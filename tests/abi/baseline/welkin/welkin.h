@@ -18,7 +18,7 @@
  *  [F] free: any thread, any time.
  *  [C] context: one thread at a time per context.
  *
- * Sources: [R04] Riley et al. 2004, [J23] Jendersie & d'Eon 2023.
+ * Sources: [R04] Riley et al. 2004, [J23] Jendersie & d'Eon 2023, [B08] Bouthors et al. 2008.
  */
 #ifndef WELKIN_WELKIN_H
 #define WELKIN_WELKIN_H
@@ -26,6 +26,7 @@
 #include "core.h"
 #include "query.h"
 #include "scene.h"
+#include "surface.h"
 #include "view.h"
 
 #endif

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Cloud surfaces: homogeneous clouds bounded by a mesh. Part of welkin.h, which states the
+ * conventions.
+ */
+#ifndef WELKIN_SURFACE_H
+#define WELKIN_SURFACE_H
+
+#include "core.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** A closed mesh and what fills it ([B08]). Nothing is computed from its shape beforehand: a
+ * changed mesh, light or place shows in the next frame. Light scattered once is exact along each
+ * ray; light scattered more often is that of slabs of the canonical cloud ([B08] 5) which light
+ * maps of the mesh choose, exact for slabs of droplets, elsewhere as docs/models.md says (bodies of
+ * optical radius 2 to 30: pictures' totals within 22 %, spheres' within 12 %). Of media other than
+ * cloud droplets (rain, ice, snow, haze) light is scattered once by their own phase function, more
+ * often as by cloud of equal (1 - asymmetry) optical depth. */
+typedef struct WlkSurfaceInfo {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** Particles inside. Copied: the medium may be destroyed afterwards. */
+  WlkMedium medium;
+  /** Extinction coefficient inside, for all colours. 1/m, [0, 1e6]. Default 0: nothing is drawn. */
+  float extinction;
+  /** [4, 12582912]. Default 0. */
+  uint32_t vertexCount;
+  /** Bytes from one position to the next. [12, 4096], a multiple of 4. Default 12. */
+  uint32_t vertexStride;
+  /** [4, 4194304]. Default 0. */
+  uint32_t triangleCount;
+  /** Position of each vertex in the mesh's own frame. x, y, z in m, |x| <= 1e7. Read during the
+   * call only. Default null. */
+  const float* positions;
+  /** Three for each triangle. Closed: each edge is walked as often one way as the other, vertices
+   * at equal places counting as one. A mesh wound inwards is turned; where it meets itself,
+   * densities add. Read during the call only. Default null. */
+  const uint32_t* indices;
+  /** Row-major 3x4: world = M * (x, y, z, 1). Invertible. Default identity. */
+  double worldFromSurface[12];
+} WlkSurfaceInfo;
+
+/** Creates a cloud surface; it needs wlkPrepare. Views show it with WLK_LAYER_SURFACES, sorted
+ * among the volumes by the nearest points of their boxes. It takes light from the first of the
+ * lights that volumes take it from, casts no shadow on others, and is not in aerial perspective for
+ *  transparents. [C]
+ *  Errors: INVALID_ARGUMENT (extinction, vertexCount, vertexStride, triangleCount, positions,
+ *  indices, worldFromSurface), INVALID_HANDLE (medium), OUT_OF_*, WRONG_STATE in CPU mode. */
+WLK_API WlkResult wlkCreateSurface(WlkContext context, const WlkSurfaceInfo* info,
+                                   WlkSurface* surface);
+/** The memory is freed when no frame in flight uses it. [C] */
+WLK_API WlkResult wlkDestroySurface(WlkContext context, WlkSurface surface);
+/** Moves a surface; as WlkSurfaceInfo::worldFromSurface. [C] */
+WLK_API WlkResult wlkSetSurfaceTransform(WlkContext context, WlkSurface surface,
+                                         const double worldFromSurface[12]);
+/** New places of all vertices between the same triangles, for animation; as WlkSurfaceInfo has
+ * them. Vertices that were at one place when the surface was created stay together: the place of
+ * the last of them counts. [C] Errors: INVALID_ARGUMENT (positions; vertexCount other than at
+ * creation; vertexStride), OUT_OF_*. */
+WLK_API WlkResult wlkSetSurfacePositions(WlkContext context, WlkSurface surface,
+                                         const float* positions, uint32_t vertexCount,
+                                         uint32_t vertexStride);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
