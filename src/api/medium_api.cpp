@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "api/context.hpp"
@@ -167,8 +168,10 @@ WlkResult wlkCreateMedium(WlkContext context, const WlkMediumInfo* info, WlkMedi
     WlkContext_T& c = checkContext(context);
     checkPointer(medium, "medium");
     const Medium value = checkedMedium(info);
+    auto tables = std::make_shared<MediumTables>();
     const uint64_t id = c.media.create();
     c.media.find(id)->medium = value;
+    c.media.find(id)->tables = std::move(tables);
     medium->id = id;
     return WLK_SUCCESS;
   });

@@ -86,6 +86,7 @@ WlkResult wlkCreateVolume(WlkContext context, const WlkVolumeInfo* info, WlkVolu
       ++used.users;
       state.fields[i].mediumId = fields[i].medium.id;
       state.fields[i].medium = used.medium;
+      state.fields[i].tables = used.tables;
       state.fields[i].extinctionScale = fields[i].extinctionScale;
     }
     state.grey = scattersGrey(state);

@@ -14,8 +14,6 @@
 #include "frame/transport.hpp"
 #include "frame/uniforms.hpp"
 #include "frame/view_shadow.hpp"
-#include "tables/scattering_orders.hpp"
-#include "tables/transport_phase.hpp"
 
 namespace welkin {
 namespace {
@@ -223,15 +221,8 @@ constexpr uint32_t CURVE_POINTS = kCurveNodes;
 constexpr VkDeviceSize LAYER_BYTES = sizeof(float) * 4 * CURVE_POINTS * DEPTH_NODES;
 
 // A field's layer: RGBA float, depth along x, angle along y.
-void fillLayer(const Particle& particle, uint32_t form, char* layer,
+void fillLayer(const SourceRows& rows, char* layer,
                std::array<float, DEPTH_NODES>& forwardFraction) {
-  const PhaseCurve& curve = particle.curve;
-  const SourceForm kind = form == 1 ? SourceForm::Integer : SourceForm::Poisson;
-  const SourceRows rows =
-      form == 2 ? peakRows(curve)
-      : particle.analytic && kind == SourceForm::Poisson
-          ? closedSourceRows(curve.y, particle.phase)
-          : sourceRows(curve.y, {curve.value[0], curve.value[1], curve.value[2]}, kind);
   constexpr size_t DEPTHS = DEPTH_NODES;
   for (size_t depth = 0; depth < DEPTHS; ++depth) {
     for (size_t i = 0; i < CURVE_POINTS; ++i) {
@@ -398,15 +389,18 @@ void prepareVolume(vk::Device& device, VolumeState& volume, uint32_t form) {
       std::memcpy(layers + i * LAYER_BYTES, layers + twin * LAYER_BYTES, LAYER_BYTES);
       made.forwardFraction[i] = made.forwardFraction[twin];
     } else {
-      fillLayer(*volume.fields[i].medium.particle, form, layers + i * LAYER_BYTES,
+      const FieldState& field = volume.fields[i];
+      fillLayer(field.tables->own.rows(*field.medium.particle, form), layers + i * LAYER_BYTES,
                 made.forwardFraction[i]);
     }
   }
   // Light marches by the medium's own forward part.
   std::array<float, DEPTH_NODES> unused{};
   for (uint32_t i = volume.fieldCount; i < info.layers; ++i) {
-    fillLayer(volume.diameterNodes->particles[i - volume.fieldCount], form,
-              layers + i * LAYER_BYTES, unused);
+    const size_t node = i - volume.fieldCount;
+    ParticleTables& tables = volume.fields[volume.diameterField].tables->nodes[node];
+    fillLayer(tables.rows(volume.diameterNodes->particles[node], form), layers + i * LAYER_BYTES,
+              unused);
   }
   table = std::move(made);
 }

@@ -19,20 +19,19 @@
 #include "frame/surface.hpp"
 #include "particles/diameter_nodes.hpp"
 #include "particles/medium.hpp"
+#include "tables/particle_tables.hpp"
 #include "vk/device.hpp"
 #include "vk/pipelines.hpp"
 
 namespace welkin {
 
 constexpr int DEPTH_NODES = 32;  // of a scattering table, see tables/multiscatter.hpp
-// Poisson counts of scatterings, the paper's whole numbers, and the first order with its peak
-// blurred.
-constexpr uint32_t SCATTERING_FORMS = 3;
 constexpr uint32_t FIELD_KINDS = 512 * (1 + WLK_MAX_FIELDS);  // values of VolumeState::fieldKind
 
 struct MediumState {
   Medium medium;
   std::shared_ptr<const DiameterNodes> nodes;  // made where they are asked for first
+  std::shared_ptr<MediumTables> tables;        // shared with the fields of this medium
   uint32_t users = 0;
 };
 
@@ -47,6 +46,7 @@ struct VoxelRange {
 struct FieldState {
   uint64_t mediumId = 0;
   Medium medium;
+  std::shared_ptr<MediumTables> tables;  // of the medium
   float extinctionScale = 0;
   float largest = 0;  // bound of the values in `image`
   // Means of the values and their squares; of an upload by parts as if the rest kept its mean.

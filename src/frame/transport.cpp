@@ -236,10 +236,11 @@ TransportSizes transportSizes(const std::array<uint32_t, 3>& cells) {
   return sizes;
 }
 
-static void fillFineKernel(const VolumeState& volume, const std::vector<TransportPhase>& phases,
+static void fillFineKernel(const VolumeState& volume,
+                           const std::vector<const TransportPhase*>& phases,
                            const std::vector<double>& weights, TransportMedia& media) {
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
-    const TransportPhase& phase = phases[i];
+    const TransportPhase& phase = *phases[i];
     const std::array<double, RGB> albedo = volume.fields[i].medium.scaledAlbedo();
     size_t at = 0;
     for (size_t n = 0; n < FINE_NODES; ++n) {
@@ -263,24 +264,21 @@ static void fillFineKernel(const VolumeState& volume, const std::vector<Transpor
 TransportMedia transportMedia(const VolumeState& volume) {
   TransportMedia media;
   const std::vector<double> weights = fieldWeights(volume);
-  std::vector<TransportPhase> phases;
-  std::vector<const TransportPhase*> list;
+  std::vector<const TransportPhase*> phases;
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
-    phases.push_back(transportPhase(volume.fields[i].medium.particle->curve));
-  }
-  for (uint32_t i = 0; i < volume.fieldCount; ++i) {
-    list.push_back(&phases[i]);
-    media.peak += weights[i] * meanAlbedo(volume.fields[i]) * phases[i].peak;
+    const FieldState& field = volume.fields[i];
+    phases.push_back(&field.tables->own.transport(*field.medium.particle));
+    media.peak += weights[i] * meanAlbedo(field) * phases[i]->peak;
   }
   // Of a phase function that is all peak something is left to divide by.
   media.peak = std::min(media.peak, 0.99);
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
-    const double f = phases[i].peak;
+    const double f = phases[i]->peak;
     const double albedo = meanAlbedo(volume.fields[i]);
     media.fieldFourth[static_cast<int>(i)] = static_cast<float>(
-        (albedo * (f + (1 - f) * phases[i].fourth) - media.peak) / (1 - media.peak));
+        (albedo * (f + (1 - f) * phases[i]->fourth) - media.peak) / (1 - media.peak));
     for (int l = 0; l < TRANSPORT_MOMENTS; ++l) {
-      const double moment = f + (1 - f) * phases[i].moments[static_cast<size_t>(l)];
+      const double moment = f + (1 - f) * phases[i]->moments[static_cast<size_t>(l)];
       media.fieldMoments[i][l] =
           static_cast<float>((albedo * moment - media.peak) / (1 - media.peak));
       for (int c = 0; c < 3; ++c) {
@@ -291,7 +289,10 @@ TransportMedia transportMedia(const VolumeState& volume) {
     }
   }
   fillFineKernel(volume, phases, weights, media);
-  const TransportPairs pairs = transportPairs(list, weights);
+  const bool alone = volume.fieldCount == 1;
+  const TransportPairs mixed = alone ? TransportPairs{} : transportPairs(phases, weights);
+  const FieldState& first = volume.fields[0];
+  const TransportPairs& pairs = alone ? first.tables->own.pairs(*first.medium.particle) : mixed;
   for (size_t l = 0; l < TRANSPORT_MOMENTS; ++l) {
     for (size_t k = 0; k < TRANSPORT_FIRST; ++k) {
       const auto& once = pairs.first[l][k];

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "tables/particle_tables.hpp"
+
+#include <span>
+
+namespace welkin {
+namespace {
+
+SourceRows makeRows(const Particle& particle, uint32_t form) {
+  const PhaseCurve& curve = particle.curve;
+  const SourceForm kind = form == 1 ? SourceForm::Integer : SourceForm::Poisson;
+  if (form == 2) {
+    return peakRows(curve);
+  }
+  return particle.analytic && kind == SourceForm::Poisson
+             ? closedSourceRows(curve.y, particle.phase)
+             : sourceRows(curve.y, {curve.value[0], curve.value[1], curve.value[2]}, kind);
+}
+
+}  // namespace
+
+const SourceRows& ParticleTables::rows(const Particle& particle, uint32_t form) {
+  std::unique_ptr<const SourceRows>& kept = rows_[form];
+  if (!kept) {
+    kept = std::make_unique<const SourceRows>(makeRows(particle, form));
+    ++made_;
+  }
+  return *kept;
+}
+
+const TransportPhase& ParticleTables::transport(const Particle& particle) {
+  if (!transport_) {
+    transport_ = std::make_unique<const TransportPhase>(transportPhase(particle.curve));
+    ++made_;
+  }
+  return *transport_;
+}
+
+const TransportPairs& ParticleTables::pairs(const Particle& particle) {
+  if (!pairs_) {
+    const TransportPhase* phase = &transport(particle);
+    constexpr double ALL = 1;
+    pairs_ = std::make_unique<const TransportPairs>(
+        transportPairs(std::span(&phase, 1), std::span(&ALL, 1)));
+    ++made_;
+  }
+  return *pairs_;
+}
+
+}  // namespace welkin
