@@ -46,6 +46,9 @@ inline constexpr WlkStructType structType(const WlkMediumInfo&) {
 inline constexpr WlkStructType structType(const WlkMediumOptics&) {
   return WLK_STRUCT_MEDIUM_OPTICS;
 }
+inline constexpr WlkStructType structType(const WlkSurfaceInfo&) {
+  return WLK_STRUCT_SURFACE_INFO;
+}
 inline constexpr WlkStructType structType(const WlkVolumeInfo&) {
   return WLK_STRUCT_VOLUME_INFO;
 }

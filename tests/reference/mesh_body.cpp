@@ -17,6 +17,7 @@ constexpr size_t DEEPEST = 64;
 struct Crossing {
   double at;
   int out;
+  uint32_t triangle;
 };
 
 bool meets(const Point& low, const Point& high, const Point& origin, const Point& direction,
@@ -147,7 +148,7 @@ void MeshBody::inside(const Point& origin, const Point& direction,
         const Point normal = cross(minus(b, a), minus(c, a));
         const double at = dot(normal, a) / dot(normal, direction);
         if (at > 0) {
-          crossings.push_back({at, out ? 1 : -1});
+          crossings.push_back({at, out ? 1 : -1, i});
         }
       }
     }
@@ -164,11 +165,11 @@ void MeshBody::inside(const Point& origin, const Point& direction,
     if (!was && windings > 0) {
       end = crossing.at;
     } else if (was && windings <= 0) {
-      found.push_back({crossing.at, end});
+      found.push_back({crossing.at, end, crossing.triangle});
     }
   }
   if (windings > 0) {
-    found.push_back({0, end});
+    found.push_back({0, end, MeshStretch::NONE});
   }
   std::reverse(found.begin(), found.end());
 }
@@ -189,6 +190,12 @@ double MeshBody::volume() const {
     sum += dot(positions_[a], cross(positions_[b], positions_[c])) / 6;
   }
   return sum;
+}
+
+Point MeshBody::normal(uint32_t triangle) const {
+  const auto& [a, b, c] = triangles_[triangle];
+  return normalized(
+      cross(minus(positions_[b], positions_[a]), minus(positions_[c], positions_[a])));
 }
 
 }  // namespace welkin::reference

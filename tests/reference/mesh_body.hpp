@@ -15,6 +15,9 @@ namespace welkin::reference {
 
 struct MeshStretch {
   double begin, end;  // along the ray
+  // Triangle that is crossed at the begin, NONE if the ray starts inside.
+  static constexpr uint32_t NONE = UINT32_MAX;
+  uint32_t front = NONE;
 };
 
 class MeshBody {
@@ -32,7 +35,8 @@ class MeshBody {
 
   const Point& low() const { return nodes_.front().low; }
   const Point& high() const { return nodes_.front().high; }
-  double volume() const;  // divergence theorem
+  double volume() const;                  // divergence theorem
+  Point normal(uint32_t triangle) const;  // outwards, unit
 
  private:
   struct Node {

@@ -89,6 +89,23 @@ TEST(MeshBody, TorusIsCrossedTwice) {
   torus.inside({-0.7, 0.01, 0.013}, {1, 0, 0}, found);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].begin, 0);
+  EXPECT_EQ(found[0].front, MeshStretch::NONE);
+}
+
+TEST(MeshBody, RaysEnterWhereNormalsFaceThem) {
+  const MeshBody box = shaped(boxShape(), {1, 2, 3});
+  std::vector<MeshStretch> found;
+  for (size_t k = 0; k < 3; ++k) {
+    for (const double side : {-1.0, 1.0}) {
+      Point origin = {0.1, 0.2, 0.3};
+      origin[k] = 5 * side;
+      Point direction{};
+      direction[k] = -side;
+      box.inside(origin, direction, found);
+      ASSERT_EQ(found.size(), 1U);
+      EXPECT_NEAR(dot(box.normal(found[0].front), direction), -1, ROUNDING);
+    }
+  }
 }
 
 // Two boxes in one mesh that overlap: their union.

@@ -35,6 +35,9 @@ MeshTracer::Light MeshTracer::path(const Start& start, Random& random) const {
   if (light.opacity <= 0) {
     return light;
   }
+  if (stretches.front().front != MeshStretch::NONE) {
+    light.facing = dot(body_.normal(stretches.front().front), start.toLight);
+  }
   double weight = light.opacity;
   double depth = -std::log1p(-random.uniform() * light.opacity);
   for (uint64_t order = 1; reach(stretches, depth / medium_.extinction, ray); ++order) {
@@ -67,14 +70,16 @@ MeshEstimate MeshTracer::trace(const std::function<Start(Random&)>& draw, uint64
     sum.rest += light.rest;
     sum.restVariance += light.rest * light.rest;
     sum.opacity += light.opacity;
+    sum.facing += light.facing;
   }
   const auto n = static_cast<double>(paths);
   const auto variance = [n](double first, double second) {
     const double mean = first / n;
     return std::fmax(second / n - mean * mean, 0.0) / std::fmax(n - 1, 1.0);
   };
-  return {sum.once / n, variance(sum.once, sum.onceVariance), sum.rest / n,
-          variance(sum.rest, sum.restVariance), sum.opacity / n};
+  return {sum.once / n,    variance(sum.once, sum.onceVariance),
+          sum.rest / n,    variance(sum.rest, sum.restVariance),
+          sum.opacity / n, sum.facing / n};
 }
 
 }  // namespace welkin::reference

@@ -29,6 +29,7 @@ struct MeshEstimate {
   double once = 0, onceVariance = 0;
   double rest = 0, restVariance = 0;
   double opacity = 0;  // mean of 1 - transmittance
+  double facing = 0;   // mean of the cosine between the light and the normal where rays enter
 };
 
 class MeshTracer {
@@ -47,6 +48,7 @@ class MeshTracer {
   struct Light {
     double once = 0, rest = 0;
     double opacity = 0;
+    double facing = 0;
   };
   Light path(const Start& start, Random& random) const;
 
