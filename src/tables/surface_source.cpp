@@ -83,20 +83,37 @@ double slopeAt(const std::array<double, RADIANCE_GRID.depth>& f, size_t i) {
   return i == last ? (3 * f[last] - 4 * f[last - 1] + f[last - 2]) / 2 : (f[i + 1] - f[i - 1]) / 2;
 }
 
+// The depths of a thickness.
+struct DepthNodes {
+  double thickness = 0;
+  std::array<double, DEPTHS> depth{};
+  std::array<double, DEPTHS> perNode{};  // d(node)/d(depth)
+};
+
+std::vector<DepthNodes> depthNodes() {
+  std::vector<DepthNodes> all(THICKNESSES);
+  for (size_t t = 0; t < THICKNESSES; ++t) {
+    DepthNodes& nodes = all[t];
+    nodes.thickness = CANONICAL_THINNEST * std::pow(CANONICAL_THICKEST / CANONICAL_THINNEST,
+                                                    partOf(t, RADIANCE_GRID.thickness));
+    for (size_t d = 0; d < DEPTHS; ++d) {
+      nodes.depth[d] = depthAt(partOf(d, RADIANCE_GRID.depth), nodes.thickness);
+      nodes.perNode[d] = depthSlope(nodes.depth[d], nodes.thickness) * (RADIANCE_GRID.depth - 1);
+    }
+  }
+  return all;
+}
+
 // J = S (1 + (1 - e^-length) d(ln S)/ds), since T = S (1 - e^-length) and J = T + dT/ds.
-void writeColumn(const CanonicalMatrix& matrix, const Node& node, bool up, float* out) {
-  const double thickness =
-      CANONICAL_THINNEST * std::pow(CANONICAL_THICKEST / CANONICAL_THINNEST,
-                                    partOf(node.thickness, RADIANCE_GRID.thickness));
+void writeColumn(const CanonicalMatrix& matrix, const Node& node, const DepthNodes& nodes, bool up,
+                 float* out) {
   const double root = std::sqrt(CANONICAL_COSINE);
   const double cosine = root + partOf(node.mu, RADIANCE_GRID.mu) * (1 - root);
   const double mu = (up ? -1 : 1) * cosine * cosine;
   const std::array<double, RADIANCE_GRID.depth> logS = logSources(matrix, node);
   for (size_t d = 0; d < DEPTHS; ++d) {
-    const double depth = depthAt(partOf(d, RADIANCE_GRID.depth), thickness);
-    const double perNode = depthSlope(depth, thickness) * (RADIANCE_GRID.depth - 1);
-    const double change =
-        1 + oneMinusExp(canonicalLength(depth, thickness, mu)) * mu * perNode * slopeAt(logS, d);
+    const double length = canonicalLength(nodes.depth[d], nodes.thickness, mu);
+    const double change = 1 + oneMinusExp(length) * mu * nodes.perNode[d] * slopeAt(logS, d);
     out[d] = static_cast<float>(logS[d] + std::log(std::max(change, LEAST_CHANGE)));
   }
 }
@@ -124,6 +141,7 @@ SurfaceSource surfaceSource(const CanonicalTable& table) {
   SurfaceSource source;
   source.size = {DEPTHS * VIEWS * 2, THICKNESSES * AZIMUTHS, LIGHTS * CANONICAL_SETS};
   source.values.resize(source.size[0] * source.size[1] * source.size[2]);
+  const std::vector<DepthNodes> nodes = depthNodes();
   for (size_t i = 0; i < source.values.size() / DEPTHS; ++i) {
     size_t rest = i;
     const auto take = [&rest](size_t count) {
@@ -137,8 +155,8 @@ SurfaceSource surfaceSource(const CanonicalTable& table) {
     const size_t light = take(LIGHTS);
     const bool up = view >= VIEWS;
     writeColumn(table.at(CanonicalPart::Radiance, rest, up),
-                {view % VIEWS * EVERY, azimuth * EVERY_AZIMUTH, thickness, light * EVERY}, up,
-                &source.values[i * DEPTHS]);
+                {view % VIEWS * EVERY, azimuth * EVERY_AZIMUTH, thickness, light * EVERY},
+                nodes[thickness], up, &source.values[i * DEPTHS]);
   }
   for (const auto& curve : table.logPhase) {
     source.logPhase.insert(source.logPhase.end(), curve.begin(), curve.end());
