@@ -19,6 +19,13 @@ struct SurfaceUniforms {
   vec4 map;        // x: texel, m; y: last level; z: texels along an edge
   // Per metre: extinction, that without the forward peak, depth of the canonical cloud.
   vec4 optics;
+  // The map along the local vertical, likewise.
+  vec4 upX;
+  vec4 upY;
+  vec4 upZ;
+  vec4 upMap;
+  vec4 sky;        // radiance from above, RGB; and from below
+  vec4 ground;
   vec4 albedo;     // RGB, of light scattered once
   vec4 orders[8];  // of each set of orders: part of its light that is not absorbed, RGB
 };

@@ -22,4 +22,5 @@
 #include "surface/collector.glsl"
 #include "surface/footprint.glsl"
 #include "surface/source.glsl"
+#include "surface/sky_share.glsl"
 #include "composite.glsl"

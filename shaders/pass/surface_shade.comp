@@ -15,6 +15,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 // Clear air: all of its light comes from the table.
 layout(constant_id = 6) const bool ALL_LIGHT = false;
 layout(constant_id = 8) const bool MULTIPLE_ENABLED = true;
+// Light of sky and ground.
+layout(constant_id = 9) const bool AMBIENT = false;
 layout(constant_id = 14) const bool DISTANCE = false;
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
@@ -30,6 +32,10 @@ layout(set = 0, binding = 15, std430) readonly buffer FogCurve { vec4 fogCurve[]
 layout(set = 0, binding = 16) uniform sampler3D skyTable;
 layout(set = 0, binding = 17) uniform sampler3D skyPeak;
 layout(set = 0, binding = 18, std430) buffer Distances { vec4 distances[]; };
+layout(set = 0, binding = 19, std430) readonly buffer UpDepths { vec4 upDepths[]; };
+layout(set = 0, binding = 20) uniform sampler2D upColumns;
+layout(set = 0, binding = 21) uniform sampler2D upFaces;
+layout(set = 0, binding = 22) uniform sampler2D skyShare;
 layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "surface_mesh.glsl"
@@ -75,33 +81,44 @@ float pointAt(Inside inside, float depth) {
   return near <= inside.leave ? near : max(inside.back - (inside.chord - depth), inside.leave);
 }
 
-// Metres of cloud between the light and a point, from what its texels show: between their middles
-// linear, where they show the cloud.
-float shadeAt(vec3 p) {
+// Where a point lies in a light map: the first of four texels around it and the part of the way to
+// the next ones; and its depth along the light, m.
+struct MapPlace {
+  uint first;
+  vec2 part;
+  float depth;
+};
+
+MapPlace mapPlace(vec4 x, vec4 y, vec4 z, vec4 map, vec3 p) {
   vec4 q = vec4(p, 1.0f);
-  float size = surface.map.z;
-  vec2 texel = clamp(vec2(dot(surface.lightX, q), dot(surface.lightY, q)) * size - 0.5f,
-                     vec2(0.0f), vec2(size - 1.001f));
+  vec2 texel = clamp(vec2(dot(x, q), dot(y, q)) * map.z - 0.5f, vec2(0.0f), vec2(map.z - 1.001f));
   vec2 low = floor(texel);
-  vec2 part = texel - low;
-  uint at = uint(low.y) * uint(size) + uint(low.x);
-  vec4 sum = vec4(0.0f);
-  float weights = 0.0f;
-  for (uint i = 0u; i < 4u; ++i) {
-    vec2 side = vec2(float(i & 1u), float(i >> 1u));
-    vec2 w = mix(1.0f - part, part, side);
-    vec4 there = depths[at + (i & 1u) + (i >> 1u) * uint(size)];
-    float weight = there.w > 0.0f ? w.x * w.y : 0.0f;
-    sum += weight * there;
-    weights += weight;
-  }
-  if (!(weights > 0.0f)) {
-    return 0.0f;
-  }
-  sum /= weights;
-  float depth = dot(surface.lightZ, q);
-  float before = depth <= sum.y ? depth - sum.x : max(sum.w - (sum.z - depth), sum.y - sum.x);
-  return clamp(before, 0.0f, sum.w);
+  MapPlace place;
+  place.first = uint(low.y) * uint(map.z) + uint(low.x);
+  place.part = texel - low;
+  place.depth = dot(z, q);
+  return place;
+}
+
+// Metres of cloud between the light and a point from what four texels show: between their middles
+// linear, where they show the cloud.
+float shadeOf(MapPlace place, vec4 a, vec4 b, vec4 c, vec4 d) {
+  vec4 covered = step(vec4(1.0e-20f), vec4(a.w, b.w, c.w, d.w));
+  vec2 u = vec2(1.0f - place.part.x, place.part.x);
+  vec4 weight = covered * vec4(u * (1.0f - place.part.y), u * place.part.y);
+  float weights = weight.x + weight.y + weight.z + weight.w;
+  vec4 mean = (weight.x * a + weight.y * b + weight.z * c + weight.w * d) / max(weights, 1.0e-20f);
+  float near = place.depth - mean.x;
+  float far = max(mean.w - (mean.z - place.depth), mean.y - mean.x);
+  float before = place.depth <= mean.y ? near : far;
+  return weights > 1.0e-6f ? clamp(before, 0.0f, mean.w) : 0.0f;
+}
+
+float shadeAt(vec3 p) {
+  MapPlace place = mapPlace(surface.lightX, surface.lightY, surface.lightZ, surface.map, p);
+  uint below = place.first + uint(surface.map.z);
+  return shadeOf(place, depths[place.first], depths[place.first + 1u], depths[below],
+                 depths[below + 1u]);
 }
 
 vec3 phaseAt(uint table, vec3 direction) {
@@ -112,20 +129,65 @@ vec3 phaseAt(uint table, vec3 direction) {
   return mix(phase[first].xyz, phase[first + 1u].xyz, x - float(i));
 }
 
-// Light scattered at least twice: J at the point, per unit irradiance.
-vec3 scatteredAt(vec3 p, float shade, vec3 direction) {
-  vec4 q = vec4(p, 1.0f);
+// The way to the eye in a light map's frame, z towards the light.
+vec3 eyeInMap(vec4 x, vec4 y, vec4 z, vec4 map, vec3 direction) {
+  float scale = map.x * map.z;
+  return vec3(-dot(x.xyz, direction) * scale, -dot(y.xyz, direction) * scale,
+              dot(z.xyz, direction));
+}
+
+SurfaceMap mapOf(vec4 row) {
   SurfaceMap map;
-  map.texel = surface.map.x;
-  map.levels = surface.map.y;
+  map.texel = row.x;
+  map.levels = row.y;
   map.extinction = surface.optics.z;
-  float scale = surface.map.x * surface.map.z;
-  vec3 toEye = -vec3(dot(surface.lightX.xyz, direction) * scale,
-                     dot(surface.lightY.xyz, direction) * scale,
-                     -dot(surface.lightZ.xyz, direction));
-  return surfaceScattered(columns, faces, source, curves, map,
-                          vec2(dot(surface.lightX, q), dot(surface.lightY, q)), shade, toEye,
+  return map;
+}
+
+// Light scattered at least twice: J at the point, per unit irradiance.
+vec3 scatteredAt(vec3 p, vec3 direction) {
+  vec4 q = vec4(p, 1.0f);
+  vec3 toEye = eyeInMap(surface.lightX, surface.lightY, surface.lightZ, surface.map, direction);
+  return surfaceScattered(columns, faces, source, curves, mapOf(surface.map),
+                          vec2(dot(surface.lightX, q), dot(surface.lightY, q)), shadeAt(p), toEye,
                           surface.orders);
+}
+
+// The source that sky and ground make at a point: in the slab along the vertical that the footprint
+// of a set of some scatterings finds, each of its faces in what its side sees of both.
+const int AMBIENT_SET = 4;
+vec3 ambientAt(vec3 p, vec3 direction) {
+  const vec3 UP = vec3(0.0f, 0.0f, 1.0f);
+  MapPlace at = mapPlace(surface.upX, surface.upY, surface.upZ, surface.upMap, p);
+  uint below = at.first + uint(surface.upMap.z);
+  float shade = shadeOf(at, upDepths[at.first], upDepths[at.first + 1u], upDepths[below],
+                        upDepths[below + 1u]);
+  vec4 q = vec4(p, 1.0f);
+  vec2 place = vec2(dot(surface.upX, q), dot(surface.upY, q));
+  vec3 toEye = eyeInMap(surface.upX, surface.upY, surface.upZ, surface.upMap, direction);
+  SurfaceMap map = mapOf(surface.upMap);
+  LightFootprint here = surfaceFootprint(upColumns, upFaces, map, place, 0.0f);
+  float through = footprintMean(here.through, here.coverage);
+  float share = lightDepthShare(shade * map.extinction, through);
+  TangentSlab local =
+      tangentSlab(through, through * share, directionOr(here.lit, UP), UP, toEye);
+  float spread = footprintSpread(AMBIENT_SET, local) / max(map.extinction, 1.0e-20f);
+  LightFootprint around =
+      surfaceFootprint(upColumns, upFaces, map, place, footprintLevel(spread, map.texel));
+  TangentSlab slab = surfaceSlab(AMBIENT_SET, around, share, UP, toEye).slab;
+  SharePlace node = sharePlace(slab.thickness, slab.depth, slab.muView);
+  float view = min(floor(node.view), float(SHARE_VIEWS) - 2.0f);
+  float rows = float(SHARE_THICKNESSES);
+  vec2 texel = node.node + 0.5f;
+  texel.y += (view + (node.up ? float(SHARE_VIEWS) : 0.0f)) * rows;
+  vec2 scale = 1.0f / vec2(float(SHARE_DEPTHS), 2.0f * float(SHARE_VIEWS) * rows);
+  float one = textureLod(skyShare, texel * scale, 0.0f).x;
+  float next = textureLod(skyShare, (texel + vec2(0.0f, rows)) * scale, 0.0f).x;
+  float lit = clamp(mix(one, next, node.view - view) + node.diffuse, 0.0f, 1.0f);
+  float seen = 0.5f + 0.5f * slab.muLight;
+  return mix(mix(surface.sky.xyz, surface.ground.xyz, seen),
+             mix(surface.ground.xyz, surface.sky.xyz, seen), lit) *
+         surface.orders[2].xyz;
 }
 
 void main() {
@@ -179,14 +241,20 @@ void main() {
       through = passed;
       begin = end;
     }
-    if (LIGHT_ENABLED) {
+    if (LIGHT_ENABLED || AMBIENT) {
       float depth = surface.optics.z * inside.chord;
       float sample_ = chordDepth(SURFACE_SAMPLE, depth) / max(surface.optics.z, 1.0e-20f);
       float distance_ = pointAt(inside, min(sample_, inside.chord));
       vec3 p = distance_ * direction;
       AirAt air = airAt(nodes, distance_);
-      sum += oneMinusExp(depth) * scatteredAt(p, shadeAt(p), direction) * air.light *
-             air.transmittance;
+      vec3 light = vec3(0.0f);
+      if (LIGHT_ENABLED) {
+        light += oneMinusExp(depth) * scatteredAt(p, direction) * air.light;
+      }
+      if (AMBIENT) {
+        light += (1.0f - through) * ambientAt(p, direction);
+      }
+      sum += light * air.transmittance;
     }
     state = vec4(sum, through);
   }

@@ -35,10 +35,10 @@ class Key {
   std::vector<char> data_;
 };
 
-std::vector<char> keyOf(const WlkContext_T& c, const VolumeState& volume, int thinAxis) {
+std::vector<char> keyOf(const WlkContext_T& c, const glm::dmat4x3& worldFromBox, int thinAxis) {
   Key key;
   key.add(c.air.ambient);
-  key.add(volume.worldFromBox);
+  key.add(worldFromBox);
   key.add(thinAxis);
   key.add(c.air.planet);
   if (c.air.ambient.mode == WLK_AMBIENT_AUTOMATIC) {
@@ -53,8 +53,8 @@ std::vector<char> keyOf(const WlkContext_T& c, const VolumeState& volume, int th
   return key.take();
 }
 
-glm::dvec3 middleOf(const VolumeState& volume) {
-  return volume.worldFromBox * glm::dvec4(0.5, 0.5, 0.5, 1);
+glm::dvec3 middleOf(const glm::dmat4x3& worldFromBox) {
+  return worldFromBox * glm::dvec4(0.5, 0.5, 0.5, 1);
 }
 
 std::vector<AmbientSample> skySamples(const WlkContext_T& c, const PlanetFrame& place) {
@@ -122,15 +122,46 @@ std::vector<AmbientSample> givenSamples(const WlkAmbient& given, const glm::dvec
   return samples;
 }
 
-std::vector<AmbientSample> samplesOn(const WlkContext_T& c, const VolumeState& volume) {
+std::vector<AmbientSample> samplesOn(const WlkContext_T& c, const glm::dmat4x3& worldFromBox) {
   constexpr double FARTHEST = 1e9;  // m, as positions of queries
-  glm::dvec3 middle = middleOf(volume);
+  glm::dvec3 middle = middleOf(worldFromBox);
   if (!(glm::length(middle) <= FARTHEST)) {
     middle = glm::dvec3(0);
   }
   const PlanetFrame place = planetFrameAt(c.air.planet, middle);
   const bool given = c.air.ambient.mode == WLK_AMBIENT_GIVEN;
   return given ? givenSamples(c.air.ambient, place.up) : skySamples(c, place);
+}
+
+// Means over both halves of the sky, by what comes onto a level plane.
+SurfaceAmbientLight halvesOf(std::span<const AmbientSample> samples, const glm::dvec3& up) {
+  SurfaceAmbientLight light;
+  light.up = up;
+  double above = 0;
+  double below = 0;
+  for (const AmbientSample& sample : samples) {
+    const double weight = sample.solidAngle * glm::dot(sample.from, up);
+    (weight > 0 ? light.sky : light.ground) += std::abs(weight) * sample.radiance;
+    (weight > 0 ? above : below) += std::abs(weight);
+  }
+  light.sky /= std::max(above, 1e-30);
+  light.ground /= std::max(below, 1e-30);
+  return light;
+}
+
+void planSurfaceAmbient(WlkContext_T& c, const ViewState& view, PlannedVolume& planned) {
+  SurfaceState& surface = *c.surfaces.find(planned.id);
+  const glm::dmat4x3 box = surface.worldFromBox();
+  std::vector<char> key = keyOf(c, box, 0);
+  if (key != surface.ambientKey) {
+    surface.ambient = halvesOf(samplesOn(c, box), planetFrameAt(c.air.planet, middleOf(box)).up);
+    surface.ambientKey = std::move(key);
+  }
+  const bool dark = surface.ambient.sky == glm::dvec3(0) && surface.ambient.ground == glm::dvec3(0);
+  if (dark && !view.plan.quality.noSkip) {
+    planned.ambient = false;
+    planned.ambientReason = WLK_REASON_NO_LIGHT;
+  }
 }
 
 }  // namespace
@@ -142,11 +173,11 @@ void planAmbient(WlkContext_T& c, ViewState& view) {
     }
     VolumeState& volume = *c.volumes.find(planned.id);
     const TransportShape shape = transportShape(volume, view.plan.quality.ambientCells);
-    std::vector<char> key = keyOf(c, volume, shape.thinAxis);
+    std::vector<char> key = keyOf(c, volume.worldFromBox, shape.thinAxis);
     const bool whole = planned.ambientWhole;
     VolumeAmbient& ambient = volume.ambient[whole ? 1 : 0];
     if (key != ambient.key) {
-      const std::vector<AmbientSample> samples = samplesOn(c, volume);
+      const std::vector<AmbientSample> samples = samplesOn(c, volume.worldFromBox);
       ambient.light = ambientThrough(glm::dmat3(volume.worldFromBox), shape, samples);
       ambient.fine = ambientFine(*volume.transport, samples, whole);
       ambient.key = std::move(key);
@@ -154,6 +185,11 @@ void planAmbient(WlkContext_T& c, ViewState& view) {
     if (dark(ambient.light) && !view.plan.quality.noSkip) {
       planned.ambient = false;
       planned.ambientReason = WLK_REASON_NO_LIGHT;
+    }
+  }
+  for (PlannedVolume& planned : view.plan.surfaces) {
+    if (planned.ambient) {
+      planSurfaceAmbient(c, view, planned);
     }
   }
 }

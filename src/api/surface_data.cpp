@@ -54,18 +54,22 @@ void prepareSurfaceLights(WlkContext_T& c) {
     }
     c.retired.reserve(c.retired.size() + surface->lights.size());
     for (SurfaceLight& light : surface->lights) {
-      if (!wanted(c, light.size)) {
+      if (!wanted(c, light.size) || (light.up && c.air.ambient.mode == WLK_AMBIENT_OFF)) {
         retireLight(c, light);
       }
     }
+    const bool ambient = c.air.ambient.mode != WLK_AMBIENT_OFF;
     if (std::erase_if(surface->lights, [](const SurfaceLight& light) { return !light.columns; }) >
         0) {
       c.forgetBindings();
     }
     for (uint32_t v = 0; v < c.views.slotCount(); ++v) {
       const ViewState* view = c.views.at(v);
-      if (view != nullptr && findSurfaceLight(*surface, sizeFor(*view)) == nullptr) {
-        surface->lights.push_back(makeSurfaceLight(*c.device, sizeFor(*view)));
+      for (const bool up : {false, true}) {
+        if (view != nullptr && (ambient || !up) &&
+            findSurfaceLight(*surface, sizeFor(*view), up) == nullptr) {
+          surface->lights.push_back(makeSurfaceLight(*c.device, sizeFor(*view), up));
+        }
       }
     }
   }
@@ -90,6 +94,7 @@ void uploadSurfaces(WlkContext_T& c, VkCommandBuffer commands) {
     entry.frame = c.frameIndex;
     copyTable(c, commands, tables.newSource, tables.source, entry.buffers[0]);
     copyTable(c, commands, tables.newCurves, tables.curves, entry.buffers[1]);
+    copyTable(c, commands, tables.newShare, tables.share, entry.buffers[2]);
   }
   for (uint32_t i = 0; i < c.surfaces.slotCount(); ++i) {
     SurfaceState* surface = c.surfaces.at(i);
@@ -128,7 +133,9 @@ void gatherSurfaces(WlkContext_T& c, ViewState& view, PlanInput& input) {
     plan.worldFromBox = surface->worldFromBox();
     plan.anyDensity = surface->extinction > 0;
     view.planSurfaces.push_back(plan);
-    c.recordSurfaces.push_back({surface, findSurfaceLight(*surface, sizeFor(view))});
+    const uint32_t size = sizeFor(view);
+    c.recordSurfaces.push_back(
+        {surface, findSurfaceLight(*surface, size, false), findSurfaceLight(*surface, size, true)});
   }
   input.surfaces = view.planSurfaces;
 }

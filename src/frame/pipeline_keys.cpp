@@ -55,6 +55,7 @@ vk::PipelineKey surfaceShadeKey(const SurfaceVariant& v, const SliceQuality& qua
   vk::PipelineKey key{vk::Pass::SurfaceShade, VK_FORMAT_UNDEFINED, {v.air, v.fog, v.light}};
   key.constants[6] = v.allLight;
   key.constants[8] = quality.multipleSky;
+  key.constants[9] = v.ambient;
   key.constants[14] = v.distance;
   return key;
 }
@@ -121,7 +122,10 @@ static void prepareSurfaces(vk::Pipelines& pipelines, const ViewState& view,
   for (const bool distance : {false, view.volumeDistance}) {
     for (const bool light : {false, usual.light}) {
       for (const bool all : {false, light && usual.air > 0 && !usual.fog && quality.multipleSky}) {
-        pipelines.prepare(surfaceShadeKey({usual.air, usual.fog, light, all, distance}, quality));
+        for (const bool ambient : {false, usual.ambient}) {
+          pipelines.prepare(
+              surfaceShadeKey({usual.air, usual.fog, light, all, distance, ambient}, quality));
+        }
       }
     }
   }
@@ -136,7 +140,9 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
   const uint32_t air = sky ? (features.absorber ? 2 : 1) : 0;
   const bool fog = features.fog && (view.info.layers & WLK_LAYER_FOG) != 0;
   if (features.surfaces > 0) {
-    prepareSurfaces(pipelines, view, quality, {air, fog, features.lights > 0, false, false});
+    const bool ambient = features.ambient && quality.ambientCells > 0;
+    prepareSurfaces(pipelines, view, quality,
+                    {air, fog, features.lights > 0, false, false, ambient});
   }
   for (uint32_t lights = 0; lights <= features.lights; ++lights) {
     for (const bool depth : {false, true}) {

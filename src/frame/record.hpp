@@ -46,6 +46,7 @@ struct RecordVolume {
 struct RecordSurface {
   const SurfaceState* state = nullptr;
   SurfaceLight* light = nullptr;  // of the view's size
+  SurfaceLight* up = nullptr;     // where there is light of sky and ground
 };
 
 struct RecordInput {

@@ -62,7 +62,7 @@ struct EyeVariant {
 };
 struct SurfaceVariant {
   uint32_t air;  // Plan::airKind
-  bool fog, light, allLight, distance;
+  bool fog, light, allLight, distance, ambient;
 };
 vk::PipelineKey surfaceCoverKey(bool depth);
 vk::PipelineKey surfaceFacesKey();

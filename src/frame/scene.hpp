@@ -195,7 +195,7 @@ inline vk::PipelineKey ofFields(vk::PipelineKey key, uint32_t kind) {
 // A descriptor set and what it points to; written only where that changes.
 struct BoundSet {
   VkDescriptorSet set = VK_NULL_HANDLE;
-  std::array<uint64_t, vk::VOLUME_BINDING_COUNT> bound{};
+  std::array<uint64_t, vk::MOST_BINDINGS> bound{};
 };
 
 // GPU time of a pass over a volume.
@@ -255,7 +255,7 @@ struct ViewSlot {
   std::pmr::vector<BoundSet> froxels;    // of the volumes, where the view has aerial perspective
   std::pmr::vector<BoundSet> transport;  // of the volumes by PlannedVolume::index
   std::pmr::vector<BoundSet> ambient;    // likewise
-  std::pmr::vector<BoundSet> surfaces;   // two of each: of its light, of the view
+  std::pmr::vector<BoundSet> surfaces;   // three of each: of its lights, of the view
   VkQueryPool queries = VK_NULL_HANDLE;
   uint64_t frameIndex = 0;                 // last frame recorded into this slot, 0 if none
   bool harvested = true;                   // its counters and timestamps were read

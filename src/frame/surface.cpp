@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "tables/surface_ambient.hpp"
 #include "tables/surface_source.hpp"
 
 namespace welkin {
@@ -139,11 +140,15 @@ SurfaceTables makeSurfaceTables(vk::Device& device) {
   };
   made.newSource = stage(source.values);
   made.newCurves = stage(source.logPhase);
+  const SurfaceAmbient ambient = surfaceAmbient(source, table.asymmetry);
+  made.newShare = stage(ambient.share);
   vk::ImageInfo info;
   info.format = VK_FORMAT_R32_SFLOAT;
   info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   info.extent = {CANONICAL_ANGLES, CANONICAL_SETS, 1};
   made.curves = vk::Image(device, info);
+  info.extent = {static_cast<uint32_t>(ambient.size[0]), static_cast<uint32_t>(ambient.size[1]), 1};
+  made.share = vk::Image(device, info);
   info.type = VK_IMAGE_TYPE_3D;
   info.extent = {static_cast<uint32_t>(source.size[0]), static_cast<uint32_t>(source.size[1]),
                  static_cast<uint32_t>(source.size[2])};
@@ -155,7 +160,7 @@ uint32_t surfaceMapSize(const SliceQuality& quality) {
   return quality.lightRoom <= 128 ? 128 : (quality.lightRoom <= 256 ? 256 : 512);
 }
 
-SurfaceLight makeSurfaceLight(vk::Device& device, uint32_t size) {
+SurfaceLight makeSurfaceLight(vk::Device& device, uint32_t size, bool up) {
   vk::ImageInfo info;
   info.format = VK_FORMAT_R32G32B32A32_SFLOAT;
   info.extent = {size, size, 1};
@@ -163,6 +168,7 @@ SurfaceLight makeSurfaceLight(vk::Device& device, uint32_t size) {
   info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   SurfaceLight light;
   light.size = size;
+  light.up = up;
   light.columns = vk::Image(device, info);
   light.faces = vk::Image(device, info);
   light.depths =
@@ -170,9 +176,10 @@ SurfaceLight makeSurfaceLight(vk::Device& device, uint32_t size) {
   return light;
 }
 
-SurfaceLight* findSurfaceLight(SurfaceState& surface, uint32_t size) {
-  const auto found = std::find_if(surface.lights.begin(), surface.lights.end(),
-                                  [&](const SurfaceLight& light) { return light.size == size; });
+SurfaceLight* findSurfaceLight(SurfaceState& surface, uint32_t size, bool up) {
+  const auto found =
+      std::find_if(surface.lights.begin(), surface.lights.end(),
+                   [&](const SurfaceLight& light) { return light.size == size && light.up == up; });
   return found == surface.lights.end() ? nullptr : &*found;
 }
 
@@ -259,7 +266,18 @@ void fillSurfaceView(const SurfaceState& s, const PlannedVolume& planned, const 
   fillTriangles(s, glm::dmat3(glm::dvec3(x), glm::dvec3(y), glm::dvec3(w)), out);
   const LightSquare square = lightSquare(s, toLight, size);
   // The origin of positions relative to the eye is the eye, the square's the mesh's own.
-  fillLightRows(square, view.eye - glm::dvec3(s.worldFromMesh[3]), out);
+  const glm::dvec3 eye = view.eye - glm::dvec3(s.worldFromMesh[3]);
+  SurfaceUniforms above{};
+  const LightSquare vertical = lightSquare(s, s.ambient.up, size);
+  fillLightRows(vertical, eye, above);
+  fillMap(vertical, size, above);
+  out.upX = above.lightX;
+  out.upY = above.lightY;
+  out.upZ = above.lightZ;
+  out.upMap = above.map;
+  out.sky = glm::vec4(glm::vec3(s.ambient.sky), 0.0f);
+  out.ground = glm::vec4(glm::vec3(s.ambient.ground), 0.0f);
+  fillLightRows(square, eye, out);
   fillMap(square, size, out);
   out.optics = {static_cast<float>(s.extinction * s.optics.whole),
                 static_cast<float>(s.extinction * s.optics.smooth),

@@ -30,10 +30,18 @@ struct SurfaceLightKey {
 // Light maps of a surface, for views whose quality asks for that size.
 struct SurfaceLight {
   uint32_t size = 0;
+  bool up = false;  // along the local vertical, for the light of sky and ground
   vk::Buffer depths;
   vk::Image columns;
   vk::Image faces;
   SurfaceLightKey key;
+};
+
+// Mean radiance from above and from below, by what they bring onto a level plane.
+struct SurfaceAmbientLight {
+  glm::dvec3 up{0, 1, 0};
+  glm::dvec3 sky{0};
+  glm::dvec3 ground{0};
 };
 
 struct SurfaceState {
@@ -53,6 +61,9 @@ struct SurfaceState {
   vk::Buffer newIndices;
   uint64_t version = 1;  // of the vertices
   std::pmr::vector<SurfaceLight> lights;
+  // The light of sky and ground on it, and what that was made of.
+  SurfaceAmbientLight ambient;
+  std::vector<char> ambientKey;
 
   // The unit box to the world.
   glm::dmat4x3 worldFromBox() const;
@@ -63,8 +74,10 @@ struct SurfaceTables {
   double asymmetry = 0;
   vk::Image source;
   vk::Image curves;
+  vk::Image share;       // of light of sky and ground
   vk::Buffer newSource;  // until they are uploaded
   vk::Buffer newCurves;
+  vk::Buffer newShare;
 };
 SurfaceTables makeSurfaceTables(vk::Device& device);
 
@@ -78,8 +91,8 @@ constexpr uint32_t surfaceMapTexels(uint32_t size) {
   }
   return texels;
 }
-SurfaceLight makeSurfaceLight(vk::Device& device, uint32_t size);
-SurfaceLight* findSurfaceLight(SurfaceState& surface, uint32_t size);
+SurfaceLight makeSurfaceLight(vk::Device& device, uint32_t size, bool up);
+SurfaceLight* findSurfaceLight(SurfaceState& surface, uint32_t size, bool up);
 
 // Constants of the picture along the light: the same for every eye.
 void fillSurfaceLight(const SurfaceState& surface, const glm::dvec3& toLight, uint32_t size,

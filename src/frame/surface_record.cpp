@@ -23,7 +23,7 @@ vk::PipelineKey shadeKeyOf(const FrameCommands& c, const ViewTargets& targets,
                            const PlannedVolume& planned) {
   const Plan& plan = c.view.plan;
   return surfaceShadeKey({plan.airKind(), plan.fog, planned.lit, plan.allLight,
-                          static_cast<bool>(targets.volumeDistance)},
+                          static_cast<bool>(targets.volumeDistance), planned.ambient},
                          c.quality);
 }
 
@@ -35,6 +35,7 @@ class SurfaceRecorder {
         planned_(planned),
         surface_(*commands.in.surfaces[planned.index].state),
         light_(*commands.in.surfaces[planned.index].light),
+        up_(commands.in.surfaces[planned.index].up),
         rank_(static_cast<uint32_t>(&planned - commands.view.plan.surfaces.data())) {}
 
   void run(bool first) {
@@ -46,9 +47,11 @@ class SurfaceRecorder {
     if (planned_.drawn) {
       c_.firstUse(light_.columns);
       c_.firstUse(light_.faces);
-      if (planned_.lit) {
-        recordLight(light);
+      if (up_ != nullptr) {
+        c_.firstUse(up_->columns);
+        c_.firstUse(up_->faces);
       }
+      recordLights(light);
       recordEye(eye, first);
     }
     passes().push_back(light);
@@ -60,34 +63,48 @@ class SurfaceRecorder {
   const ViewResources& resources() const { return c_.view.resources; }
 
   // The light maps, unless they are there already.
-  void recordLight(WlkPassStats& stats) {
-    SurfaceUniforms uniforms;
-    fillSurfaceLight(surface_, c_.view.plan.lights.light[0].toLight, light_.size, uniforms);
-    const SurfaceLightKey now = surfaceLightKey(surface_, uniforms);
-    if (now == light_.key) {
-      stats.reason = c_.quality.noSkip ? WLK_REASON_NO_SKIP_FLAG : WLK_REASON_UNCHANGED;
-      if (stats.reason == WLK_REASON_UNCHANGED) {
-        return;
-      }
+  void recordLights(WlkPassStats& stats) {
+    bool changed = false;
+    if (planned_.lit) {
+      changed = recordMap(light_, c_.view.plan.lights.light[0].toLight, 0, stats);
     }
-    light_.key = now;
-    use(c_.slot.surfaces[size_t{2} * rank_], uniforms, 0);
-    clear(resources().surfaceCover, sizeof(SurfaceCover) * light_.size * light_.size);
-    clear(resources().surfaceFaces, sizeof(SurfaceFaces) * light_.size * light_.size);
+    if (planned_.ambient) {
+      changed = recordMap(*up_, surface_.ambient.up, 1, stats) || changed;
+      stats.reason = planned_.lit ? stats.reason : planned_.ambientReason;
+    }
+    if ((planned_.lit || planned_.ambient) && !changed) {
+      stats.reason = c_.quality.noSkip ? WLK_REASON_NO_SKIP_FLAG : WLK_REASON_UNCHANGED;
+    }
+  }
+
+  // Whether the map along a direction had changed; `which`: its uniforms and set.
+  bool recordMap(SurfaceLight& light, const glm::dvec3& from, uint32_t which, WlkPassStats& stats) {
+    SurfaceUniforms uniforms;
+    fillSurfaceLight(surface_, from, light.size, uniforms);
+    const SurfaceLightKey now = surfaceLightKey(surface_, uniforms);
+    const bool changed = !(now == light.key);
+    if (!changed && !c_.quality.noSkip) {
+      return false;
+    }
+    light.key = now;
+    use(light, uniforms, which);
+    clear(resources().surfaceCover, sizeof(SurfaceCover) * light.size * light.size);
+    clear(resources().surfaceFaces, sizeof(SurfaceFaces) * light.size * light.size);
     orderClears();
     triangles(surfaceCoverKey(false), uniforms, stats, index_);
     c_.orderShaders();
     triangles(surfaceFacesKey(), uniforms, stats, index_);
-    recordLevels(stats);
-    copyLevels(light_.columns, 0);
-    copyLevels(light_.faces, surfaceMapTexels(light_.size));
+    recordLevels(light.size, stats);
+    copyLevels(light.columns, light.size, 0);
+    copyLevels(light.faces, light.size, surfaceMapTexels(light.size));
+    return changed;
   }
 
-  void recordLevels(WlkPassStats& stats) {
+  void recordLevels(uint32_t edge, WlkPassStats& stats) {
     SliceConstants push{};
-    push.slabCount = surfaceMapTexels(light_.size);
+    push.slabCount = surfaceMapTexels(edge);
     bool fromLevel = false;
-    for (uint32_t size = light_.size; size > 1 || !fromLevel; size >>= MAP_LEVELS) {
+    for (uint32_t size = edge; size > 1; size >>= MAP_LEVELS) {
       push.lightSize = size;
       c_.orderShaders();
       c_.dispatch(c_.find(surfaceMapKey(fromLevel)), c_.pipelines.surfaceLayout(), &push,
@@ -100,12 +117,12 @@ class SurfaceRecorder {
   }
 
   // From texels `first` on, level by level.
-  void copyLevels(vk::Image& image, uint32_t first) {
+  void copyLevels(const vk::Image& image, uint32_t edge, uint32_t first) {
     constexpr VkDeviceSize TEXEL = 16;
     constexpr uint32_t MOST_LEVELS = 16;
     std::array<VkBufferImageCopy, MOST_LEVELS> regions{};
     uint32_t count = 0;
-    for (uint32_t size = light_.size; size > 0; size /= 2) {
+    for (uint32_t size = edge; size > 0; size /= 2) {
       VkBufferImageCopy& region = regions[count];
       region.bufferOffset = TEXEL * first;
       region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, count, 0, 1};
@@ -133,7 +150,7 @@ class SurfaceRecorder {
                      c_.view.info.width,
                      c_.view.info.height},
                     c_.view.plan.lights.light[0].toLight, light_.size, shade, uniforms);
-    use(c_.slot.surfaces[size_t{2} * rank_ + 1], uniforms, 1);
+    use(light_, uniforms, 2);
     const VkDeviceSize pixels =
         VkDeviceSize{planned_.rect.x1 - planned_.rect.x0} * (planned_.rect.y1 - planned_.rect.y0);
     if (pixels > 0) {
@@ -166,13 +183,14 @@ class SurfaceRecorder {
                {COMPUTE, SHADER_ACCESS});
   }
 
-  // Writes the constants of picture `which` (0: the light's, 1: the view's) and binds what the
-  // passes read and write.
-  void use(BoundSet& set, const SurfaceUniforms& uniforms, uint32_t which) {
+  // Writes the constants of picture `which` (0: the light's, 1: the vertical's, 2: the view's) and
+  // binds what the passes read and write; `light`: the map whose depths they are about.
+  void use(const SurfaceLight& light, const SurfaceUniforms& uniforms, uint32_t which) {
+    BoundSet& set = c_.slot.surfaces[size_t{3} * rank_ + which];
     const ViewResources& r = resources();
     Bindings& b = c_.bindings;
     const VkDeviceSize frame = c_.in.slot * r.slotStride;
-    const VkDeviceSize at = frame + r.surfaceOffset + (2 * rank_ + which) * r.surfaceStride;
+    const VkDeviceSize at = frame + r.surfaceOffset + (3 * rank_ + which) * r.surfaceStride;
     std::memcpy(static_cast<char*>(r.uniforms.data()) + at, &uniforms, sizeof uniforms);
     b.buffer(set, vk::BIND_SURFACE_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(),
              frame, sizeof(FrameUniforms));
@@ -187,7 +205,9 @@ class SurfaceRecorder {
     storage(vk::BIND_SURFACE_INDICES, surface_.indices);
     storage(vk::BIND_SURFACE_COVER, r.surfaceCover);
     storage(vk::BIND_SURFACE_STATE, r.frameState);
-    storage(vk::BIND_SURFACE_LIGHT_DEPTHS, light_.depths);
+    storage(vk::BIND_SURFACE_LIGHT_DEPTHS, light.depths);
+    const SurfaceLight& up = up_ != nullptr ? *up_ : light_;
+    storage(vk::BIND_SURFACE_UP_DEPTHS, up.depths);
     storage(vk::BIND_SURFACE_FACE_IDS, r.surfaceFaces);
     storage(vk::BIND_SURFACE_LEVELS, r.surfaceLevels);
     storage(vk::BIND_SURFACE_PHASE, surface_.phase);
@@ -199,6 +219,12 @@ class SurfaceRecorder {
             VK_IMAGE_LAYOUT_GENERAL);
     b.image(set, vk::BIND_SURFACE_FACES, light_.faces.view(), c_.pipelines.means(),
             VK_IMAGE_LAYOUT_GENERAL);
+    b.image(set, vk::BIND_SURFACE_UP_COLUMNS, up.columns.view(), c_.pipelines.means(),
+            VK_IMAGE_LAYOUT_GENERAL);
+    b.image(set, vk::BIND_SURFACE_UP_FACES, up.faces.view(), c_.pipelines.means(),
+            VK_IMAGE_LAYOUT_GENERAL);
+    b.image(set, vk::BIND_SURFACE_SHARE, c_.in.surfaceTables->share.view(), c_.pipelines.linear(),
+            READ);
     b.image(set, vk::BIND_SURFACE_SOURCE, c_.in.surfaceTables->source.view(), c_.pipelines.linear(),
             READ);
     b.image(set, vk::BIND_SURFACE_CURVES, c_.in.surfaceTables->curves.view(), c_.pipelines.linear(),
@@ -214,6 +240,7 @@ class SurfaceRecorder {
   const PlannedVolume& planned_;
   const SurfaceState& surface_;
   SurfaceLight& light_;
+  SurfaceLight* up_;
   uint32_t rank_;
   uint32_t index_ = 0;  // of the light's line of the statistics
 };
@@ -225,7 +252,8 @@ void findSurfacePipelines(const FrameCommands& commands, const ViewTargets& targ
   if (!planned.drawn) {
     return;
   }
-  if (planned.lit) {
+  const RecordSurface& surface = commands.in.surfaces[planned.index];
+  if (planned.lit || planned.ambient) {
     commands.find(surfaceCoverKey(false));
     commands.find(surfaceFacesKey());
     commands.find(surfaceMapKey(false));
@@ -233,7 +261,7 @@ void findSurfacePipelines(const FrameCommands& commands, const ViewTargets& targ
   }
   commands.find(surfaceCoverKey(static_cast<bool>(targets.depth)));
   commands.find(shadeKeyOf(commands, targets, planned));
-  if (commands.in.surfaces[planned.index].light == nullptr) {
+  if (surface.light == nullptr || (planned.ambient && surface.up == nullptr)) {
     fail(WLK_ERROR_NOT_PREPARED, 0, "view", "call wlkPrepare before recording");
   }
 }

@@ -16,7 +16,7 @@ void recordSurface(FrameCommands& commands, const ViewTargets& targets,
                    const PlannedVolume& planned, bool first);
 
 // Of a surface in a frame, at most.
-constexpr uint32_t SURFACE_DISPATCHES = 8;
+constexpr uint32_t SURFACE_DISPATCHES = 14;
 
 // Copies a waiting mesh; returns how many bytes.
 VkDeviceSize uploadSurface(const vk::Device& device, VkCommandBuffer commands,

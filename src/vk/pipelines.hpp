@@ -3,6 +3,7 @@
 // recording; the descriptor set layouts of the passes.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory_resource>
 #include <span>
@@ -160,8 +161,17 @@ enum SurfaceBinding : uint32_t {
   BIND_SURFACE_SKY_TABLE = 16,
   BIND_SURFACE_SKY_PEAK = 17,
   BIND_SURFACE_DISTANCES = 18,
-  SURFACE_BINDING_COUNT = 19
+  BIND_SURFACE_UP_DEPTHS = 19,
+  BIND_SURFACE_UP_COLUMNS = 20,
+  BIND_SURFACE_UP_FACES = 21,
+  BIND_SURFACE_SHARE = 22,
+  SURFACE_BINDING_COUNT = 23
 };
+
+// Of any set.
+constexpr uint32_t MOST_BINDINGS =
+    std::max({+VOLUME_BINDING_COUNT, +COMPOSITE_BINDING_COUNT, +TRANSPORT_BINDING_COUNT,
+              +AMBIENT_BINDING_COUNT, +SHADOW_BINDING_COUNT, +SURFACE_BINDING_COUNT});
 
 class Pipelines {
  public:
