@@ -40,7 +40,8 @@ typedef struct WlkSurfaceInfo {
    * at equal places counting as one. A mesh wound inwards is turned; where it meets itself,
    * densities add. Read during the call only. Default null. */
   const uint32_t* indices;
-  /** Row-major 3x4: world = M * (x, y, z, 1). Invertible. Default identity. */
+  /** Row-major 3x4: world = M * (x, y, z, 1). Invertible, its columns 1 mm long or more. Default
+   *  identity. */
   double worldFromSurface[12];
 } WlkSurfaceInfo;
 

@@ -51,7 +51,7 @@ class Run {
   Run& operator=(const Run&) = delete;
 
   void call() {
-    switch (input_.below(16)) {
+    switch (input_.below(18)) {
       case 0:
         return createVolume();
       case 1:
@@ -85,6 +85,10 @@ class Run {
         return estimate();
       case 14:
         return outOfOrder();
+      case 15:
+        return createSurface();
+      case 16:
+        return changeSurface();
       default:
         return light();
     }
@@ -96,6 +100,7 @@ class Run {
   WlkMedium medium_{};
   Handles<WlkVolume> volumes_;
   Handles<WlkView> views_;
+  Handles<WlkSurface> surfaces_;
   unsigned char data_[4096] = {};
 
   void createVolume() {
@@ -115,6 +120,51 @@ class Run {
     const bool made = checkResult(wlkCreateVolume(context_, info.get(), &volume));
     require(made == (volume.id != 0), "a volume comes back exactly if there is one");
     volumes_.add(volume);
+  }
+
+  // A tetrahedron whose numbers are mostly good.
+  void createSurface() {
+    static constexpr uint32_t CLOSED[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
+    Framed<WlkSurfaceInfo> info(input_);
+    float positions[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    uint32_t indices[12];
+    std::memcpy(indices, CLOSED, sizeof indices);
+    if (input_.oneIn(2)) {
+      positions[input_.below(12)] = input_.number<float>();
+    }
+    if (input_.oneIn(8)) {
+      indices[input_.below(12)] = input_.below(6);
+    }
+    info.value.medium = input_.oneIn(16) ? WlkMedium{input_.take<uint64_t>()} : medium_;
+    info.value.extinction = input_.number<float>();
+    info.value.positions = positions;
+    info.value.indices = indices;
+    info.value.vertexStride = sizeof positions / 4;
+    info.value.vertexCount = input_.oneIn(8) ? input_.below(5) : 4;
+    info.value.triangleCount = input_.oneIn(8) ? input_.below(5) : 4;
+    WlkSurface surface{};
+    const bool made = checkResult(wlkCreateSurface(context_, info.get(), &surface));
+    require(made == (surface.id != 0), "a surface comes back exactly if there is one");
+    surfaces_.add(surface);
+  }
+
+  void changeSurface() {
+    const WlkSurface surface = surfaces_.pick(input_);
+    if (input_.oneIn(3)) {
+      (void)checkResult(wlkDestroySurface(context_, surface));
+    } else if (input_.oneIn(2)) {
+      double transform[12];
+      for (double& x : transform) {
+        x = input_.number<double>();
+      }
+      (void)checkResult(wlkSetSurfaceTransform(context_, surface, transform));
+    } else {
+      float positions[12];
+      for (float& x : positions) {
+        x = input_.number<float>();
+      }
+      (void)checkResult(wlkSetSurfacePositions(context_, surface, positions, 4, 12));
+    }
   }
 
   void setTransform() {

@@ -11,6 +11,7 @@
 #include "stress/counting_allocator.hpp"
 #include "support/engine_scene.hpp"
 #include "support/fault_layer.hpp"
+#include "support/surface_scene.hpp"
 
 namespace welkin::test {
 namespace {
@@ -52,14 +53,16 @@ struct Kind {
   uint32_t scattering;
   bool targets = false;    // froxels, distance, a shadow map
   bool diameters = false;  // of droplets, whose tables take longest
+  bool surface = false;    // a cloud of a mesh, moved between frames
   // Of so many calls one fails.
   uint64_t stride = 1;
 };
-constexpr Kind WHOLE{true, true, WLK_SCATTERING_ALL_ORDERS, false, false, 23};
+constexpr Kind WHOLE{true, true, WLK_SCATTERING_ALL_ORDERS, false, false, false, 23};
 constexpr Kind CLOUD{false, true, WLK_SCATTERING_FORWARD};
 constexpr Kind AIR{true, false, WLK_SCATTERING_FORWARD};
-constexpr Kind TARGETS{false, true, WLK_SCATTERING_FORWARD, true, false, 2};
-constexpr Kind DROPLETS{false, true, WLK_SCATTERING_FORWARD, true, true, 61};
+constexpr Kind TARGETS{false, true, WLK_SCATTERING_FORWARD, true, false, false, 2};
+constexpr Kind DROPLETS{false, true, WLK_SCATTERING_FORWARD, true, true, false, 61};
+constexpr Kind SURFACE{false, true, WLK_SCATTERING_FORWARD, false, false, true, 3};
 
 // What an engine does with one context.
 class Life {
@@ -80,6 +83,8 @@ class Life {
   WlkResult uploadBricks() const;
   WlkResult uploadDiameters() const;
   void addTargetSteps(std::vector<Step>& steps);
+  WlkResult createSurface();
+  WlkResult moveSurface() const;
   WlkResult createMap();
   WlkResult recordMap();
   WlkResult recorded(const std::function<WlkResult(VkCommandBuffer)>& record) const;
@@ -94,6 +99,7 @@ class Life {
   WlkVolume second_{};
   WlkView view_{};
   WlkShadowMap map_{};
+  WlkSurface surface_{};
   uint64_t frame_ = 0;
 };
 
@@ -163,6 +169,20 @@ WlkResult Life::uploadDiameters() const {
   upload.data = values.data();
   upload.dataSize = values.size() * sizeof(float);
   return wlkUploadVolumeDiameters(context, volume_, &upload);
+}
+
+WlkResult Life::createSurface() {
+  const SurfaceArrays arrays(support::boxMesh());
+  WlkSurfaceInfo info = arrays.info(medium_, 0.01f);
+  place(info, {100, 100, 100}, {0, 200, -900});
+  const WlkResult result = wlkCreateSurface(context, &info, &surface_);
+  EXPECT_TRUE(result >= 0 || surface_.id == 0);
+  return result;
+}
+
+WlkResult Life::moveSurface() const {
+  const SurfaceArrays arrays(support::boxMesh());
+  return wlkSetSurfacePositions(context, surface_, arrays.positions.data(), 8, 12);
 }
 
 WlkResult Life::createMap() {
@@ -285,6 +305,9 @@ std::vector<Step> Life::steps() {
                           {"wlkCreateView", createView, true},
                           {"view", setView, false}};
   addTargetSteps(steps);
+  if (kind_.surface) {
+    steps.push_back({"wlkCreateSurface", [this] { return createSurface(); }, true});
+  }
   steps.push_back({"wlkPrepare", prepare, true});
   const auto frame = [&] {
     steps.push_back({"wlkBeginFrame", [this] { return begin(); }, true});
@@ -295,6 +318,9 @@ std::vector<Step> Life::steps() {
     steps.push_back({"wlkVulkanCmdRenderView", [this] { return record(true); }, true});
   };
   frame();
+  if (kind_.surface) {
+    steps.push_back({"wlkSetSurfacePositions", [this] { return moveSurface(); }, true});
+  }
   steps.push_back({"wlkUpdateView", [this] { return resize(WIDTH / 2); }, true});
   steps.push_back({"wlkPrepare", prepare, true});
   steps.push_back({"wlkUpdateView", [this] { return resize(WIDTH); }, true});
@@ -413,7 +439,7 @@ TEST_F(Faults, EveryCallOfVulkanMayFailOnce) {
   FaultLayer::makeHollowPipelines(true);
   const bool all = std::getenv("WELKIN_ALL_FAULTS") != nullptr;
   uint64_t faults = 0;
-  for (const Kind& kind : {CLOUD, AIR, WHOLE, TARGETS, DROPLETS}) {
+  for (const Kind& kind : {CLOUD, AIR, WHOLE, TARGETS, DROPLETS, SURFACE}) {
     const uint64_t calls = live(kind, FaultLayer::NEVER, VK_SUCCESS);
     ASSERT_GT(calls, 100u);
     for (uint64_t k = 0; k < calls && !HasFailure(); k += kind.stride) {
@@ -430,8 +456,8 @@ TEST_F(Faults, EveryCallOfVulkanMayFailOnce) {
   for (const auto& [entry, count] : faultsOf) {
     std::printf("  %-24s %llu\n", entry.c_str(), static_cast<unsigned long long>(count));
   }
-  for (const char* entry :
-       {"wlkCreateContext", "wlkUploadVolume", "wlkUploadVolumeBricks", "wlkPrepare"}) {
+  for (const char* entry : {"wlkCreateContext", "wlkUploadVolume", "wlkUploadVolumeBricks",
+                            "wlkCreateSurface", "wlkPrepare"}) {
     EXPECT_GT(faultsOf[entry], 0u) << entry;
   }
 }
