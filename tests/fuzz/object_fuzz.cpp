@@ -43,6 +43,9 @@ class Run {
     for (const WlkVolume volume : volumes_.all()) {
       (void)wlkDestroyVolume(context_, volume);
     }
+    for (const WlkSurface surface : surfaces_.all()) {
+      (void)wlkDestroySurface(context_, surface);
+    }
     for (const WlkView view : views_.all()) {
       (void)wlkDestroyView(context_, view);
     }
