@@ -16,7 +16,7 @@ extern "C" {
  * changed mesh, light or place shows in the next frame. Light scattered once is exact along each
  * ray; light scattered more often is that of slabs of the canonical cloud ([B08] 5) which light
  * maps of the mesh choose, exact for slabs of droplets, elsewhere as docs/models.md says (bodies of
- * optical radius 2 to 30: pictures' totals within 22 %, spheres' within 12 %). Of media other than
+ * optical radius 2 to 30: pictures' totals within 22 %, spheres' within 14 %). Of media other than
  * cloud droplets (rain, ice, snow, haze) light is scattered once by their own phase function, more
  * often as by cloud of equal (1 - asymmetry) optical depth. */
 typedef struct WlkSurfaceInfo {

@@ -3,10 +3,11 @@
 // source's image: the rule of model/surface with its fetches, two of the maps and four of the
 // source per set. Needs model.glsl. Vectors are in the light's frame, z towards the light.
 //
-// columns: coverage, through (m), x and y of the lit face's normal; faces: z of that normal, then
-// the shaded face's; both with mipmaps of means over all of a texel, filtered linearly in place and
-// level, transparent black beyond their border. source, curves: values and logPhase of
-// src/tables/surface_source, 3-D and 181 x 8, filtered linearly, clamped to their edge.
+// columns: coverage, through (m), x and y of the lit face's normal; faces: z of that normal, x and
+// y of the shaded face's, depth of the lit face along the light (m); both with mipmaps of means
+// over all of a texel, filtered linearly in place and level, transparent black beyond their border.
+// source, curves: values and logPhase of src/tables/surface_source, 3-D and 181 x 8, filtered
+// linearly, clamped to their edge.
 
 struct SurfaceMap {
   float texel;       // width at level 0, m
@@ -14,17 +15,20 @@ struct SurfaceMap {
   float extinction;  // canonical depth per metre: 1 - f of the medium's
 };
 
+// `face`: depth of the lit face above the point, m.
 LightFootprint surfaceFootprint(sampler2D columns, sampler2D faces, SurfaceMap map, vec2 place,
-                                float level) {
+                                float level, float face) {
   // The maps end where one texel holds the whole cloud: a wider footprint is that and nothing.
   float part = exp2(-2.0 * max(level - map.levels, 0.0));
   vec4 column = part * textureLod(columns, place, level);
-  vec4 face = part * textureLod(faces, place, level);
+  vec4 side = part * textureLod(faces, place, level);
   LightFootprint around;
   around.coverage = column.x;
   around.through = column.y * map.extinction;
-  around.lit = vec3(column.zw, face.x);
-  around.shaded = face.yzw;
+  around.lit = vec3(column.zw, side.x);
+  // The third of the shaded normal as if all were alike: the slab's normal hardly asks.
+  around.shaded = vec3(side.yz, -sqrt(max(column.x * column.x - dot(side.yz, side.yz), 0.0)));
+  around.rise = (footprintMean(side.w, column.x) - face) * map.extinction;
   return around;
 }
 
@@ -52,9 +56,10 @@ float surfaceLogSource(sampler3D source, int set, SourcePlace at) {
 // chord); what the eye gets is this times oneMinusExp(canonical depth of the chord).
 // `left`: part of each set's light that the medium does not absorb.
 vec3 surfaceScattered(sampler2D columns, sampler2D faces, sampler3D source, sampler2D curves,
-                      SurfaceMap map, vec2 place, float shade, vec3 toEye, vec4 left[8]) {
+                      SurfaceMap map, vec2 place, float depth, float shade, vec3 toEye,
+                      vec4 left[8]) {
   const vec3 TO_LIGHT = vec3(0.0, 0.0, 1.0);
-  LightFootprint here = surfaceFootprint(columns, faces, map, place, 0.0);
+  LightFootprint here = surfaceFootprint(columns, faces, map, place, 0.0, depth - shade);
   float through = footprintMean(here.through, here.coverage);
   float share = lightDepthShare(shade * map.extinction, through);
   TangentSlab local = tangentSlab(through, through * share, directionOr(here.lit, TO_LIGHT),
@@ -64,7 +69,8 @@ vec3 surfaceScattered(sampler2D columns, sampler2D faces, sampler3D source, samp
   for (int set = 0; set < SURFACE_SETS; ++set) {
     float spread = footprintSpread(set, local) / max(map.extinction, 1e-20);
     LightFootprint around =
-        surfaceFootprint(columns, faces, map, place, footprintLevel(spread, map.texel));
+        surfaceFootprint(columns, faces, map, place, footprintLevel(spread, map.texel),
+                         depth - shade);
     SurfaceSlab found = surfaceSlab(set, around, share, TO_LIGHT, toEye);
     SourcePlace at = sourcePlace(set, found.slab);
     float logPhase =

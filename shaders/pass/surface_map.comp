@@ -17,7 +17,7 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 
 struct MapTexel {
   vec4 column;  // coverage, through (m), x and y of the lit face's normal
-  vec4 face;    // z of that; the shaded face's
+  vec4 face;    // z of that; x and y of the shaded face's; depth of the lit face, m
 };
 
 shared vec4 columns[64];
@@ -51,7 +51,7 @@ MapTexel fromTriangles(uvec2 texel, uint size) {
     far = far.z > 0.0f ? -far : far;
     float through = float(cover.chord) * metre;
     result.column = vec4(1.0f, through, near.xy);
-    result.face = vec4(near.z, far);
+    result.face = vec4(near.z, far.xy, float(~cover.front) * metre);
     depths[at] = vec4(float(~cover.front) * metre, float(~cover.leave) * metre,
                       float(cover.back) * metre, through);
   }

@@ -149,8 +149,8 @@ vec3 scatteredAt(vec3 p, vec3 direction) {
   vec4 q = vec4(p, 1.0f);
   vec3 toEye = eyeInMap(surface.lightX, surface.lightY, surface.lightZ, surface.map, direction);
   return surfaceScattered(columns, faces, source, curves, mapOf(surface.map),
-                          vec2(dot(surface.lightX, q), dot(surface.lightY, q)), shadeAt(p), toEye,
-                          surface.orders);
+                          vec2(dot(surface.lightX, q), dot(surface.lightY, q)),
+                          dot(surface.lightZ, q), shadeAt(p), toEye, surface.orders);
 }
 
 // The source that sky and ground make at a point: in the slab along the vertical that the footprint
@@ -166,14 +166,15 @@ vec3 ambientAt(vec3 p, vec3 direction) {
   vec2 place = vec2(dot(surface.upX, q), dot(surface.upY, q));
   vec3 toEye = eyeInMap(surface.upX, surface.upY, surface.upZ, surface.upMap, direction);
   SurfaceMap map = mapOf(surface.upMap);
-  LightFootprint here = surfaceFootprint(upColumns, upFaces, map, place, 0.0f);
+  LightFootprint here = surfaceFootprint(upColumns, upFaces, map, place, 0.0f, at.depth - shade);
   float through = footprintMean(here.through, here.coverage);
   float share = lightDepthShare(shade * map.extinction, through);
   TangentSlab local =
       tangentSlab(through, through * share, directionOr(here.lit, UP), UP, toEye);
   float spread = footprintSpread(AMBIENT_SET, local) / max(map.extinction, 1.0e-20f);
   LightFootprint around =
-      surfaceFootprint(upColumns, upFaces, map, place, footprintLevel(spread, map.texel));
+      surfaceFootprint(upColumns, upFaces, map, place, footprintLevel(spread, map.texel),
+                       at.depth - shade);
   TangentSlab slab = surfaceSlab(AMBIENT_SET, around, share, UP, toEye).slab;
   SharePlace node = sharePlace(slab.thickness, slab.depth, slab.muView);
   float view = min(floor(node.view), float(SHARE_VIEWS) - 2.0f);

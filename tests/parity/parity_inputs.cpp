@@ -177,6 +177,7 @@ void footprintRow(Random& random, size_t i, Row& row) {
   row[7] = random.logarithmic(1e-3, 1e3) * row[3];
   row[11] = random.uniform(0, 1);
   row[16] = static_cast<float>(i % 8) + 0.5f;
+  row[17] = random.uniform(-10, 10);
 }
 
 void sourceRow(Random& random, size_t i, Row& row) {

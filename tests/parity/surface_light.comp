@@ -47,7 +47,7 @@ vec4 textureLod(int map, vec2 place, float level) {
   float coverage = 1.0 / (1.0 + 0.1 * level);
   float slope = 0.6 * place.x / (1.0 + level);
   return coverage * (map == COLUMNS_MAP ? vec4(1.0, 20.0 * place.y + level, slope, 0.1)
-                                        : vec4(0.8, 0.2, slope, -0.7));
+                                        : vec4(0.8, 0.2, slope, 5.0 + level));
 }
 
 #define sampler2D int
@@ -66,7 +66,7 @@ void main() {
     left[set] = vec4(1.0);
   }
   results[i] = surfaceScattered(COLUMNS_MAP, FACES_MAP, 0u, CURVES_MAP, map,
-                                vec2(data[row], data[row + 1]), data[row + 2],
+                                vec2(data[row], data[row + 1]), 8.0, data[row + 2],
                                 vec3(data[row + 3], data[row + 4], data[row + 5]), left)
                    .x;
 }

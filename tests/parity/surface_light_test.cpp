@@ -21,14 +21,16 @@ constexpr size_t ROWS = 1024;
 constexpr uint32_t GROUP = 64;
 
 // The maps of surface_light.comp.
-f64::LightFootprint footprint(double x, double y, double level, double extinction) {
+f64::LightFootprint footprint(double x, double y, double level, double extinction,
+                              double shade = 0) {
   const double coverage = 1 / (1 + 0.1 * level);
   const double slope = 0.6 * x / (1 + level);
   f64::LightFootprint around{};
   around.coverage = coverage;
   around.through = coverage * (20 * y + level) * extinction;
   around.lit = f64::vec3(slope, 0.1, 0.8) * coverage;
-  around.shaded = f64::vec3(0.2, slope, -0.7) * coverage;
+  around.shaded = f64::vec3(0.2, slope, -std::sqrt(1 - 0.04 - slope * slope)) * coverage;
+  around.rise = (5 + level - (8 - shade)) * extinction;  // a point 8 m along the light
   return around;
 }
 
@@ -48,8 +50,8 @@ double expected(const SurfaceSource& source, const float* row) {
   double sum = 0;
   for (int set = 0; set < f64::SURFACE_SETS; ++set) {
     const double level = f64::footprintLevel(f64::footprintSpread(set, local) / extinction, texel);
-    const f64::SurfaceSlab found =
-        f64::surfaceSlab(set, footprint(x, y, level, extinction), share, light, eye);
+    const f64::SurfaceSlab found = f64::surfaceSlab(
+        set, footprint(x, y, level, extinction, static_cast<double>(row[2])), share, light, eye);
     sum += found.inside * surfaceSourceAt(source, static_cast<size_t>(set),
                                           {found.slab.thickness, found.slab.depth,
                                            found.slab.muLight, found.slab.muView, found.slab.phi});

@@ -146,8 +146,10 @@ double surfaceRadiance(const reference::Body& body, const LightMap& map,
   for (int set = 0; set < SURFACE_SETS; ++set) {
     const double spread = footprintSpread(set, local) / cloud.scale;
     const LightTexel wide = map.at(at[0], at[1], footprintLevel(spread, map.texel()));
+    // Heights towards the light, not depths.
+    const double rise = at[2] + shade - footprintMean(wide.top, wide.coverage);
     const LightFootprint around = {wide.coverage, cloud.scale * wide.through, vec(wide.lit),
-                                   vec(wide.shaded)};
+                                   vec(wide.shaded), cloud.scale * rise};
     const SurfaceSlab found = surfaceSlab(set, around, share, vec(TO_LIGHT), toEye);
     sum += found.inside * surfaceSourceAt(source, static_cast<size_t>(set),
                                           {found.slab.thickness, found.slab.depth,

@@ -79,6 +79,24 @@ TEST(SurfaceRule, NarrowerCloudsKeepLessAndNothingIsLeftOfNone) {
   }
 }
 
+// Hills keep less the higher they are and the more of their surroundings is cloud; what lies level
+// or in a valley keeps all.
+TEST(SurfaceRule, HillsKeepLess) {
+  for (int set = 0; set < f64::SURFACE_SETS; ++set) {
+    EXPECT_EQ(f64::hillKept(set, 1, 0), 1);
+    EXPECT_EQ(f64::hillKept(set, 1, -7), 1);
+    EXPECT_EQ(f64::hillKept(set, 0, 7), 1);
+    double last = 1;
+    for (int i = 1; i <= 20; ++i) {
+      const double kept = f64::hillKept(set, 1, 0.5 * i);
+      EXPECT_LT(kept, last);
+      EXPECT_LT(kept, f64::hillKept(set, 0.8, 0.5 * i));
+      last = kept;
+    }
+    EXPECT_GE(last, 0);
+  }
+}
+
 TEST(SurfaceRule, IsFiniteForAnyMap) {
   const f32::vec3 none(0, 0, 0);
   const f32::vec3 up(0, 0, 1);
@@ -87,8 +105,9 @@ TEST(SurfaceRule, IsFiniteForAnyMap) {
       for (const f32::vec3 lit : {none, up, -up, f32::vec3(1, 0, 0)}) {
         for (const f32::vec3 shaded : {none, up, -up}) {
           for (int set = 0; set < f32::SURFACE_SETS; ++set) {
-            const f32::SurfaceSlab found =
-                f32::surfaceSlab(set, {coverage, through * coverage, lit, shaded}, 0.5f, up, up);
+            const float rise = set % 2 == 0 ? through : -through;
+            const f32::SurfaceSlab found = f32::surfaceSlab(
+                set, {coverage, through * coverage, lit, shaded, rise}, 0.5f, up, up);
             EXPECT_TRUE(std::isfinite(found.slab.thickness));
             EXPECT_TRUE(std::isfinite(f32::footprintSpread(set, found.slab)));
             const f32::SourcePlace place = f32::sourcePlace(set, found.slab);

@@ -19,6 +19,7 @@ struct LightFootprint {
   real through;   // depth of the cloud along the light
   vec3 lit;       // normal of the face towards the light, outwards
   vec3 shaded;    // of the last face along the light, outwards
+  real rise;      // of the lit face at the point over that of the footprint, towards the light
 };
 
 struct SurfaceSlab {
@@ -71,15 +72,29 @@ vec3 directionOr(vec3 v, vec3 other) {
 // points lies in it. Of a walk whose end lies in a disc with the probability 1 - e^-x a smaller
 // part has stayed there all the way, the less the more steps it takes: the power 1 + l / x of that
 // probability is the shape of the walk's survival, and light that has gone deep has walked longer.
-const real LEAK_FEW = real(0.15);
-const real LEAK_MANY = real(0.55);
-const real LEAK_DEPTH = real(2.0f);
+const real LEAK_FEW = real(0.09);
+const real LEAK_MANY = real(0.5);
+const real LEAK_DEPTH = real(2.2);
 real footprintSurvival(int set, real coverage, real depthShare) {
   real a = clamp(coverage, real(1e-6), real(0.999999));
   real leak = set < 2 ? real(0.0f) : (set < SURFACE_DIFFUSE ? LEAK_FEW : LEAK_MANY);
   real x = max(-log(real(1.0f) - a), real(1e-3));
   real power = real(1.0f) + leak * (real(1.0f) + LEAK_DEPTH * depthShare) / x;
   return coverage > real(0.0f) ? safeExp(power * log(a)) : real(0.0f);
+}
+
+// Part of a set's light that stays where the face stands `rise` over its surroundings, across the
+// slab: hills lose light at their sides, of which the slab knows nothing. Diffuse light falls to 0
+// HILL_FACE above a face; wider collectors see more of the hill. Where the footprint is not all
+// cloud, footprintSurvival counts what is lost sideways.
+const real HILL_LOSS = real(1.5f);
+const real HILL_FACE = real(2.86);  // SOURCE_BEHIND
+const real HILL_WIDTH = real(0.2);
+real hillKept(int set, real coverage, real rise) {
+  real a = clamp(coverage, real(0.0f), real(1.0f));
+  real covered = a * a * a * a * a;
+  return safeExp(-HILL_LOSS * covered * max(rise, real(0.0f)) /
+                 (HILL_FACE + HILL_WIDTH * collectorWidth(set)));
 }
 
 // The slab of a set at a point that the part depthShare in [0, 1] of the cloud on its light ray
@@ -93,7 +108,8 @@ SurfaceSlab surfaceSlab(int set, LightFootprint around, real depthShare, vec3 to
   vec3 normal = slabNormal(lit, shaded, across / width);
   SurfaceSlab result;
   result.slab = tangentSlab(through, through * depthShare, normal, toLight, toEye);
-  result.inside = footprintSurvival(set, around.coverage, depthShare);
+  result.inside = footprintSurvival(set, around.coverage, depthShare) *
+                  hillKept(set, around.coverage, around.rise * result.slab.muLight);
   return result;
 }
 
