@@ -12,16 +12,21 @@ shared uint surfaceLarge[SURFACE_LANES];
 shared uint surfaceLargeCount;
 
 struct SurfaceTriangle {
-  vec3 line0;
-  vec3 line1;
-  vec3 line2;
+  vec3 a;
+  vec3 b;
+  vec3 c;
+  bvec3 turned;  // edges bc, ca and ab run from the higher number to the lower
   vec3 depths;
   ivec4 box;
 };
 
+// The same for every triangle at a vertex.
 vec3 surfacePoint(SurfaceUniforms s, vec3 p) {
-  vec4 q = vec4(p, 1.0f);
-  return vec3(dot(s.pixelX, q), dot(s.pixelY, q), dot(s.pixelW, q));
+  precise vec3 at = vec3(s.pixelX.w, s.pixelY.w, s.pixelW.w) +
+                    p.x * vec3(s.pixelX.x, s.pixelY.x, s.pixelW.x) +
+                    p.y * vec3(s.pixelX.y, s.pixelY.y, s.pixelW.y) +
+                    p.z * vec3(s.pixelX.z, s.pixelY.z, s.pixelW.z);
+  return at;
 }
 
 // Pixels of the strip y0, y1 that the triangle may cover, x0, y0, x1, y1.
@@ -44,10 +49,6 @@ ivec4 surfaceBox(SurfaceUniforms s, ivec2 strip, vec3 a, vec3 b, vec3 c) {
   return ivec4(ivec2(floor(low)), ivec2(ceil(high)));
 }
 
-vec3 sharedLine(vec3 a, vec3 b, uint i, uint j) {
-  return i < j ? edgeLine(a, b, false) : edgeLine(b, a, true);
-}
-
 SurfaceTriangle surfaceTriangle(SurfaceUniforms s, ivec2 strip, uint triangle) {
   uint i = surfaceIndex(3u * triangle);
   uint j = surfaceIndex(3u * triangle + 1u);
@@ -55,16 +56,14 @@ SurfaceTriangle surfaceTriangle(SurfaceUniforms s, ivec2 strip, uint triangle) {
   vec3 p = surfaceVertex(i);
   vec3 q = surfaceVertex(j);
   vec3 r = surfaceVertex(k);
-  vec3 a = surfacePoint(s, p);
-  vec3 b = surfacePoint(s, q);
-  vec3 c = surfacePoint(s, r);
   SurfaceTriangle t;
+  t.a = surfacePoint(s, p);
+  t.b = surfacePoint(s, q);
+  t.c = surfacePoint(s, r);
+  t.turned = bvec3(j > k, k > i, i > j);
   t.depths = vec3(dot(s.depth, vec4(p, 1.0f)), dot(s.depth, vec4(q, 1.0f)),
                   dot(s.depth, vec4(r, 1.0f)));
-  t.line0 = sharedLine(b, c, j, k);
-  t.line1 = sharedLine(c, a, k, i);
-  t.line2 = sharedLine(a, b, i, j);
-  t.box = surfaceBox(s, strip, a, b, c);
+  t.box = surfaceBox(s, strip, t.a, t.b, t.c);
   return t;
 }
 
@@ -83,7 +82,7 @@ void coverBox(SurfaceUniforms s, SurfaceTriangle t, uint triangle, uint first, u
   uint count = surfaceBoxSize(t.box);
   for (uint n = first; n < count; n += stride) {
     ivec2 pixel = t.box.xy + ivec2(int(n % width), int(n / width));
-    SurfaceCrossing crossing = surfaceCrossing(t.line0, t.line1, t.line2, t.depths, vec2(pixel));
+    SurfaceCrossing crossing = surfaceCrossing(t.a, t.b, t.c, t.turned, t.depths, vec2(pixel));
     if (crossing.facing != 0.0f && crossing.depth > s.steps.w) {
       crossing.facing = s.triangle.z != 0u ? -crossing.facing : crossing.facing;
       uint at = uint(pixel.y - s.rect.y) * uint(s.rect.z - s.rect.x) + uint(pixel.x - s.rect.x);

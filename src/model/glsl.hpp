@@ -11,6 +11,7 @@ using vec4 = glm::vec<4, real>;
 using ivec2 = glm::ivec2;
 using ivec3 = glm::ivec3;
 using uint = unsigned int;
+using bvec3 = glm::bvec3;
 
 // The specialisation constants of the passes; on the CPU everything is compiled in.
 constexpr bool AIR_ENABLED = true;

@@ -15,6 +15,7 @@
 
 namespace welkin::model::f64 {
 namespace {
+#define precise  // of GLSL; here nothing is contracted
 #define WELKIN_REAL double
 #include "model/glsl.hpp"
 #include "model/model.glsl"
@@ -32,6 +33,7 @@ namespace {
 #include "model/glsl.hpp"
 #include "model/model.glsl"
 #undef WELKIN_REAL
+#undef precise
 }  // namespace
 }  // namespace welkin::model::f32
 

@@ -36,7 +36,7 @@ class SurfaceImage : public ::testing::Test {
   }
 
   // Unit vector of a pixel of the camera that looks along -z.
-  glm::dvec3 direction(uint32_t x, uint32_t y) const {
+  static glm::dvec3 direction(const HeadlessScene& scene, uint32_t x, uint32_t y) {
     const auto camera = make<WlkCamera>();
     const double focus = std::abs(static_cast<double>(camera.clipFromView[5]));
     const double aspect = double(scene.options().width) / scene.options().height;
@@ -70,7 +70,7 @@ class SurfaceImage : public ::testing::Test {
     int covered = 0;
     for (uint32_t y = 0; y < image.height; ++y) {
       for (uint32_t x = 0; x < image.width; ++x) {
-        const glm::dvec3 ray = direction(x, y);
+        const glm::dvec3 ray = direction(scene, x, y);
         const double length = chord(eye, ray, wallDepth / -ray.z);
         covered += length > 0 ? 1 : 0;
         EXPECT_NEAR(image.at(x, y)[0], std::exp(-static_cast<double>(EXTINCTION) * length),
@@ -114,6 +114,39 @@ TEST_F(SurfaceImage, EndsAtOpaqueSurfaces) {
   auto targets = make<WlkHeadlessTargets>();
   targets.depth = pixels.data();
   EXPECT_GT(expectChords({0, 2, 0}, &targets, WALL), 30);
+}
+
+// Triangles of half a pixel to many, 131072 of them: a pixel that slipped between two would see the
+// sky through the ball.
+TEST_F(SurfaceImage, HasNoCracks) {
+  SceneOptions options = separate();
+  options.width = 960;
+  options.height = 540;
+  options.validation = false;
+  const HeadlessScene fine(options);
+  addSurface(fine, support::sphereMesh(7), fine.addHenyeyGreenstein(0), EXTINCTION,
+             {1000, 1000, 1000}, {0, 0, 0});
+  for (const std::array<double, 3>& eye :
+       {std::array{30.0, 40.0, 7000.0}, {600.0, 700.0, 2500.0}, {-500.0, 300.0, 1300.0}}) {
+    fine.setCamera(eye, 0, 0);
+    fine.render();
+    const Image image = fine.read(WLK_IMAGE_TRANSMITTANCE);
+    for (uint32_t y = 0; y < image.height; ++y) {
+      for (uint32_t x = 0; x < image.width; ++x) {
+        const glm::dvec3 ray = direction(fine, x, y);
+        const glm::dvec3 origin(eye[0], eye[1], eye[2]);
+        const double nearest = -glm::dot(origin, ray);
+        const double square = 1e6 - glm::dot(origin, origin) + nearest * nearest;
+        const double length = 2 * std::sqrt(std::max(square, 0.0));
+        // Facets of 1/128 of a right angle, 1.7 times that where the octahedron's faces bulge, lie
+        // up to 0.06 m below the ball; at its rim by as much as the chord of that.
+        const double facet = 2 * std::sqrt(std::max(square, 0.0) + 2 * 1000 * 0.12) - length;
+        EXPECT_NEAR(image.at(x, y)[0], std::exp(-static_cast<double>(EXTINCTION) * length),
+                    static_cast<double>(EXTINCTION) * facet + 1e-5)
+            << x << ' ' << y;
+      }
+    }
+  }
 }
 
 // In the mirror the triangles run the other way round.

@@ -23,7 +23,9 @@ namespace {
 namespace welkin::model::noisy {
 namespace {
 #include "parity/noisy_glsl.hpp"
+#define precise  // of GLSL; here nothing is contracted
 #include "model/model.glsl"
+#undef precise
 #include "parity/cases.glsl"
 }  // namespace
 }  // namespace welkin::model::noisy

@@ -7,6 +7,7 @@ using vec3 = glm::vec<3, real>;
 using vec4 = glm::vec<4, real>;
 using ivec2 = glm::ivec2;
 using ivec3 = glm::ivec3;
+using bvec3 = glm::bvec3;
 using uint = unsigned int;
 
 constexpr bool AIR_ENABLED = true;

@@ -60,17 +60,12 @@ std::vector<SurfaceCover> onCpu(const ClosedMesh& mesh, const SurfaceUniforms& u
       corner[i] = {along(u.pixelX, p), along(u.pixelY, p), along(u.pixelW, p)};
       depths[i] = along(u.depth, p);
     }
-    const auto line = [&](size_t a, size_t b) {
-      return t[a] < t[b] ? f32::edgeLine(corner[a], corner[b], false)
-                         : f32::edgeLine(corner[b], corner[a], true);
-    };
-    const vec3 line0 = line(1, 2);
-    const vec3 line1 = line(2, 0);
-    const vec3 line2 = line(0, 1);
+    const f32::bvec3 turned(t[1] > t[2], t[2] > t[0], t[0] > t[1]);
     for (int y = 0; y < HEIGHT; ++y) {
       for (int x = 0; x < WIDTH; ++x) {
-        const f32::SurfaceCrossing hit = f32::surfaceCrossing(
-            line0, line1, line2, depths, {static_cast<float>(x), static_cast<float>(y)});
+        const f32::SurfaceCrossing hit =
+            f32::surfaceCrossing(corner[0], corner[1], corner[2], turned, depths,
+                                 {static_cast<float>(x), static_cast<float>(y)});
         if (hit.facing == 0.0f || !(hit.depth > u.steps.w)) {
           continue;
         }

@@ -1,27 +1,49 @@
 // SPDX-License-Identifier: MIT
 // Where the rays of pixels cross the triangles of a closed surface, without clipping (Olano and
-// Greer 1997) and without cracks: the sides of a shared edge are each other's exact negative.
+// Greer 1997) and without cracks.
 //
 // A vertex is homogeneous, (x W, y W, W): the pixel that sees it, x to the right and y down, and
 // its depth W along the view, negative behind the eye. Parallel projections have W = 1.
+//
+// Each pixel sees vertices from itself: the sides of edges are then signs of areas between nearby
+// points, known to 1e-7 of them. Lines of the whole picture, which cost less, miss the vertices
+// where they should meet by 0.03 pixels in a picture of 960, and pixels fall between. All triangles
+// at a vertex see it at the same place, and those at an edge compute the same area: that from the
+// vertex of lower number to the other, whose sign one of them changes.
 
-// The line through two vertices. `first` is the one with the lower number, whatever triangle asks:
-// so both triangles of an edge compute the same three numbers; `turned` changes their signs.
-vec3 edgeLine(vec3 first, vec3 second, bool turned) {
-  vec3 line = vec3(first.y * second.z - first.z * second.y, first.z * second.x - first.x * second.z,
-                   first.x * second.y - first.y * second.x);
-  return turned ? -line : line;
+vec3 fromPixel(vec3 vertex, vec2 pixel) {
+  precise vec3 moved = vec3(vertex.x - pixel.x * vertex.z, vertex.y - pixel.y * vertex.z, vertex.z);
+  return moved;
 }
 
-real lineAt(vec3 line, vec2 pixel) {
-  return line.x * pixel.x + line.y * pixel.y + line.z;
+// Between the pixel and an edge, from its first vertex to its second.
+real edgeArea(vec3 first, vec3 second) {
+  precise real area = first.x * second.y - first.y * second.x;
+  return area;
 }
 
 // 1 or -1; of a pixel on the line that of a point infinitely little to the right of it, else below.
 // 0: no line, since the eye looks along the edge.
-real lineSide(vec3 line, real at) {
-  real x = line.x != real(0.0f) ? line.x : line.y;
-  return sign(at != real(0.0f) ? at : x);
+real edgeSide(vec3 first, vec3 second, real area) {
+  precise real right = first.y * second.z - first.z * second.y;
+  precise real below = first.z * second.x - first.x * second.z;
+  return sign(area != real(0.0f) ? area : (right != real(0.0f) ? right : below));
+}
+
+struct EdgeAt {
+  real area;
+  real side;
+};
+
+// `turned`: the second vertex has the lower number.
+EdgeAt edgeAt(vec3 a, vec3 b, bool turned) {
+  vec3 first = turned ? b : a;
+  vec3 second = turned ? a : b;
+  EdgeAt edge;
+  edge.area = edgeArea(first, second);
+  edge.side = edgeSide(first, second, edge.area);
+  edge.side = turned ? -edge.side : edge.side;
+  return edge;
 }
 
 struct SurfaceCrossing {
@@ -29,16 +51,20 @@ struct SurfaceCrossing {
   real depth;   // between those of the vertices; crossings below 0 lie behind the eye
 };
 
-// line0 is the one that does not meet vertex 0, and so on; `depths` are the vertices' own: W, or
-// along a parallel projection what is asked for.
-SurfaceCrossing surfaceCrossing(vec3 line0, vec3 line1, vec3 line2, vec3 depths, vec2 pixel) {
-  vec3 at = vec3(lineAt(line0, pixel), lineAt(line1, pixel), lineAt(line2, pixel));
-  real side = lineSide(line0, at.x);
-  bool one = side == lineSide(line1, at.y) && side == lineSide(line2, at.z);
-  vec3 weight = abs(at);
+// turned: of the edges bc, ca and ab. `depths` are the vertices' own: W, or along a parallel
+// projection what is asked for.
+SurfaceCrossing surfaceCrossing(vec3 a, vec3 b, vec3 c, bvec3 turned, vec3 depths, vec2 pixel) {
+  vec3 p = fromPixel(a, pixel);
+  vec3 q = fromPixel(b, pixel);
+  vec3 r = fromPixel(c, pixel);
+  EdgeAt first = edgeAt(q, r, turned.x);
+  EdgeAt second = edgeAt(r, p, turned.y);
+  EdgeAt third = edgeAt(p, q, turned.z);
+  bool one = first.side == second.side && first.side == third.side;
+  vec3 weight = abs(vec3(first.area, second.area, third.area));
   real sum = weight.x + weight.y + weight.z;
   SurfaceCrossing result;
-  result.facing = one ? -side : real(0.0f);  // y points down
+  result.facing = one ? -first.side : real(0.0f);  // y points down
   // A pixel on all three lines sees a triangle of no size.
   result.depth = sum > real(0.0f) ? dot(weight, depths) / sum
                                   : (depths.x + depths.y + depths.z) / real(3.0f);
