@@ -178,6 +178,7 @@ TEST(SurfaceView, SpheresAgreeWithMonteCarlo) {
   constexpr double TOTAL = 0.15;
   constexpr double FRONT_RMS = 0.20;
   constexpr double OTHER_RMS = 0.40;
+  constexpr double NOISE = 0.001;  // of the truth's noise, which is taken off
   const auto truth =
       welkin::test::readSurfaceTruth(WELKIN_BENCH_FOLDER "/../unit/surface_truth.csv");
   for (const char* name : {"sphere-2", "sphere-10", "sphere-30"}) {
@@ -187,7 +188,7 @@ TEST(SurfaceView, SpheresAgreeWithMonteCarlo) {
       showSphere(name, angle, truth, total, rms);
       std::printf("%-10s %3d  total %.3f  rms %.3f\n", name, angle, total, rms);
       EXPECT_NEAR(total, 1, TOTAL) << name << ' ' << angle;
-      EXPECT_LE(rms, angle >= 120 ? FRONT_RMS : OTHER_RMS) << name << ' ' << angle;
+      EXPECT_LE(rms, NOISE + (angle >= 120 ? FRONT_RMS : OTHER_RMS)) << name << ' ' << angle;
     }
   }
 }
@@ -200,7 +201,7 @@ struct ViewBars {
 
 TEST(SurfaceView, CloudsAgreeWithMonteCarlo) {
   // Measured, and a fifth more. What is beside a hill is known by its mean only (docs/models.md).
-  constexpr ViewBars BARS[] = {{"cumulus", 0.11, 0.24}, {"stratocumulus", 0.17, 0.48}};
+  constexpr ViewBars BARS[] = {{"cumulus", 0.11, 0.22}, {"stratocumulus", 0.10, 0.33}};
   constexpr uint32_t RAYS = 4;  // along a pixel's edge
   for (const SurfaceView& view : surfaceViews()) {
     const SurfaceTruthImage truth = readSurfaceTruth(fileOf(view));

@@ -79,12 +79,12 @@ TEST(SurfaceRule, NarrowerCloudsKeepLessAndNothingIsLeftOfNone) {
   }
 }
 
-// Hills keep less the higher they are and the more of their surroundings is cloud; what lies level
-// or in a valley keeps all.
+// Hills and valleys keep less the higher they are and the more of their surroundings is cloud; what
+// lies level keeps all.
 TEST(SurfaceRule, HillsKeepLess) {
   for (int set = 0; set < f64::SURFACE_SETS; ++set) {
     EXPECT_EQ(f64::hillKept(set, 1, 0), 1);
-    EXPECT_EQ(f64::hillKept(set, 1, -7), 1);
+    EXPECT_EQ(f64::hillKept(set, 1, -7), f64::hillKept(set, 1, 7));
     EXPECT_EQ(f64::hillKept(set, 0, 7), 1);
     double last = 1;
     for (int i = 1; i <= 20; ++i) {

@@ -73,7 +73,7 @@ vec3 directionOr(vec3 v, vec3 other) {
 // part has stayed there all the way, the less the more steps it takes: the power 1 + l / x of that
 // probability is the shape of the walk's survival, and light that has gone deep has walked longer.
 const real LEAK_FEW = real(0.09);
-const real LEAK_MANY = real(0.5);
+const real LEAK_MANY = real(0.48);
 const real LEAK_DEPTH = real(2.2);
 real footprintSurvival(int set, real coverage, real depthShare) {
   real a = clamp(coverage, real(1e-6), real(0.999999));
@@ -84,16 +84,17 @@ real footprintSurvival(int set, real coverage, real depthShare) {
 }
 
 // Part of a set's light that stays where the face stands `rise` over its surroundings, across the
-// slab: hills lose light at their sides, of which the slab knows nothing. Diffuse light falls to 0
-// HILL_FACE above a face; wider collectors see more of the hill. Where the footprint is not all
-// cloud, footprintSurvival counts what is lost sideways.
-const real HILL_LOSS = real(1.5f);
+// slab: hills lose light at their sides, of which the slab knows nothing, and valleys have theirs
+// from such hills, so that a valley as deep keeps as much. Diffuse light falls to 0 HILL_FACE above
+// a face; wider collectors see more of the hill. Where the footprint is not all cloud,
+// footprintSurvival counts what is lost sideways.
+const real HILL_LOSS = real(1.2);
 const real HILL_FACE = real(2.86);  // SOURCE_BEHIND
 const real HILL_WIDTH = real(0.2);
 real hillKept(int set, real coverage, real rise) {
   real a = clamp(coverage, real(0.0f), real(1.0f));
   real covered = a * a * a * a * a;
-  return safeExp(-HILL_LOSS * covered * max(rise, real(0.0f)) /
+  return safeExp(-HILL_LOSS * covered * abs(rise) /
                  (HILL_FACE + HILL_WIDTH * collectorWidth(set)));
 }
 
