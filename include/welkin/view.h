@@ -107,8 +107,7 @@ enum {
   WLK_SCATTERING_DEFAULT = 0,
   /** Once-scattered light only, in air and fog as well. */
   WLK_SCATTERING_SINGLE = 1,
-  /** Forward multiple scattering in volumes, [R04] Eq. 20-26 as corrected in docs/equations.md; all
-   *  orders in air and fog. */
+  /** Forward scattering in volumes, [R04] Eq. 20-26 as corrected; all orders in air and fog. */
   WLK_SCATTERING_FORWARD = 2,
   /** The same with the paper's whole number of scatterings, ceil(n), for comparison. */
   WLK_SCATTERING_FORWARD_INTEGER = 3,
@@ -119,11 +118,9 @@ enum {
 enum {
   /** Record every pass whether needed or not; for tests that compare with skipping. */
   WLK_QUALITY_NO_SKIP = 1u << 0,
-  /** Volumes cast shadows on air, fog and the bare planet, from the first light, as far as it is
-   *  scattered once. */
+  /** Volumes shade air, fog and bare planet from the first light, as far as it scatters once. */
   WLK_QUALITY_VOLUME_SHADOWS = 1u << 1,
-  /** The engine's shadow map (WlkLightShadow), where one is given with a view's targets, does the
-   *  same: shafts of light. */
+  /** So does the engine's shadow map (WlkLightShadow) given with a view's targets: shafts. */
   WLK_QUALITY_LIGHT_SHADOWS = 1u << 2
 };
 
@@ -134,14 +131,12 @@ enum {
   /** In each. */
   WLK_VOLUME_RESOLUTION_FULL = 1,
   /** In every second one along both axes. Those between take on what their neighbours see where
-   *  that is smooth (to 0.64 / sliceCount) and ends at the same surface; all others have rays of
-   *  their own. Only where the light of all slabs is kept (see batchSize): batches and froxels are
-   *  marched as with FULL. Opaque surfaces, air and fog stay at full resolution. */
+   *  that is smooth (to 0.64 / sliceCount) and ends at the same surface; others have their own.
+   *  Where all slabs' light is kept (see batchSize); never of surfaces, air, fog, froxels. */
   WLK_VOLUME_RESOLUTION_HALF = 2
 };
 
-/** Who chooses between the lowest level and `level`. Controls other than LEVEL leave sliceCount,
- *  batchSize and lightBufferSize 0. */
+/** Who chooses. Others than LEVEL leave sliceCount, batchSize and lightBufferSize 0. */
 enum {
   /** Nobody: the numbers of `level` and of the fields that are not 0. */
   WLK_CONTROL_LEVEL = 0,
@@ -189,6 +184,11 @@ typedef struct WlkQuality {
   uint32_t lowestLevel;
   /** WLK_VOLUME_RESOLUTION_*. Default DEFAULT. */
   uint32_t volumeResolution;
+  /** With WLK_SCATTERING_ALL_ORDERS: frames over which a volume's light is renewed, in even parts,
+   *  as the first light's direction moves by up to 5 degrees per frame; other changes show at once.
+   *  Scattered light lags by 2 lightFrames - 2 frames. 0 (as 1) or [1, 64]. Default 0. */
+  uint32_t lightFrames;
+  uint32_t reserved0;
 } WlkQuality;
 
 /** Sets a view's quality. Needs wlkPrepare, unless only timeBudget_ms or errorTarget of a
@@ -250,10 +250,9 @@ typedef struct WlkQualityState {
 /** Tells what a view's quality is and why. [C] */
 WLK_API WlkResult wlkGetQualityState(WlkContext context, WlkView view, WlkQualityState* state);
 
-/** Reports what the GPU took for the view's part of a finished frame, ms, for
- *  WLK_CONTROL_REPORTED_TIME. In the order of the frames; of some it may be missing. A frame that
- * is not later than the last one reported changes nothing. [C] Errors: INVALID_ARGUMENT for times
- *  outside (0, 1e6] and for frames that were not recorded yet, WRONG_STATE with another control. */
+/** Reports the GPU time of the view's part of a finished frame, ms, for WLK_CONTROL_REPORTED_TIME;
+ *  one not later than the last reported changes nothing. [C] Errors: INVALID_ARGUMENT for times
+ *  outside (0, 1e6] and frames that were not recorded yet, WRONG_STATE with another control. */
 WLK_API WlkResult wlkReportFrameTime(WlkContext context, WlkView view, uint64_t frameIndex,
                                      double milliseconds);
 
@@ -402,7 +401,9 @@ enum {
   WLK_REASON_NO_LIGHT = 5,
   WLK_REASON_NO_SKIP_FLAG = 6,
   /** What the pass depends on is as in an earlier frame, whose result is used. */
-  WLK_REASON_UNCHANGED = 7
+  WLK_REASON_UNCHANGED = 7,
+  /** A part is computed, or complete light fades in (WlkQuality::lightFrames). */
+  WLK_REASON_SPREAD = 8
 };
 
 /** One line of the plan: a pass over one volume (or over the picture), all its batches together. */
@@ -439,8 +440,7 @@ typedef struct WlkFrameStats {
   /** Bytes of device memory and of host memory that the context holds. */
   uint64_t deviceMemory;
   uint64_t hostMemory;
-  /** Pixels, and froxels of aerial perspective, of the newest finished frame whose value was not
-   *  finite before the final guard. */
+  /** Pixels and froxels of the newest finished frame not finite before the final guard. */
   uint64_t nonFinitePixels;
 } WlkFrameStats;
 

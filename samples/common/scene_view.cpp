@@ -8,7 +8,7 @@ namespace {
 
 WlkQuality parseQuality(const JsonNode& node) {
   node.onlyKeys({"level", "sliceCount", "batchSize", "lightBufferSize", "slicing", "scattering",
-                 "volumeCells", "volumeResolution", "noSkip", "volumeShadows"});
+                 "volumeCells", "volumeResolution", "lightFrames", "noSkip", "volumeShadows"});
   auto quality = make<WlkQuality>();
   // The words stand in the order of the API's values.
   if (node.has("level")) {
@@ -18,6 +18,7 @@ WlkQuality parseQuality(const JsonNode& node) {
   node.optional("batchSize", quality.batchSize);
   node.optional("lightBufferSize", quality.lightBufferSize);
   node.optional("volumeCells", quality.volumeCells);
+  node.optional("lightFrames", quality.lightFrames);
   if (node.has("volumeResolution")) {
     quality.volumeResolution = node.at("volumeResolution").word({"default", "full", "half"});
   }

@@ -26,6 +26,8 @@ const int RESPONSE_AZIMUTHS = 24;
 // Nodes of the pair table over the scattering angle, for each (l, m >= 0) of degree < 3.
 const int PAIR_TABLE_NODES = 128;
 
+const uint TRANSPORT_GROUP = 64u;  // threads
+
 const int FIRST_ROWS = TRANSPORT_DIRECTIONS * 4;
 const int SECOND_ROWS = TRANSPORT_DIRECTIONS * 7;
 
@@ -64,8 +66,9 @@ struct TransportUniforms {
 struct TransportPush {
   uint level;
   uint flags;  // TRANSPORT_*
-  uint unused0;
-  uint unused1;
+  uint first;  // row of groups, or group, that the dispatch begins with
+  // Of what is shown towards the eye; the rest is what the dispatch before has written.
+  float weight;
 };
 
 const uint TRANSPORT_FIRST_SWEEP = 1u;   // of light scattered once

@@ -64,6 +64,15 @@ int radianceAt(int level, int direction, int ray) {
          volume.size[level].w * direction + ray;
 }
 
+// Where a dispatch is one of several: its place among all of the step's groups or rows of groups.
+// gl_WorkGroupSize is 1 here, before the kernel has declared its own.
+int threadOfStep() {
+  return int(gl_GlobalInvocationID.x + push.first * TRANSPORT_GROUP);
+}
+int rowOfStep() {
+  return int(gl_WorkGroupID.y + push.first);
+}
+
 TransportDirection directionAt(int level, int direction) {
   return volume.directions[level * TRANSPORT_DIRECTIONS + direction];
 }

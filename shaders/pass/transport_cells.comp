@@ -105,7 +105,7 @@ void coarser(int level, int cell) {
 }
 
 void main() {
-  int cell = int(gl_GlobalInvocationID.x);
+  int cell = threadOfStep();
   int level = int(push.level);
   if (cell >= volume.size[level].w) {
     return;

@@ -18,7 +18,7 @@ void main() {
   TransportDirection d = volume.light;
   ivec3 size = 2 * volume.size[0].xyz;
   ivec2 count = ivec2(size[d.axes.y], size[d.axes.z]);
-  int ray = int(gl_GlobalInvocationID.x);
+  int ray = threadOfStep();
   if (ray >= count.x * count.y) {
     return;
   }

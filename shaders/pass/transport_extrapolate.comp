@@ -23,7 +23,7 @@ int termAt(int term, int level, int cell) {
 
 void main() {
   int level = int(push.level);
-  int cell = int(gl_GlobalInvocationID.x);
+  int cell = threadOfStep();
   if (cell >= volume.size[level].w) {
     return;
   }

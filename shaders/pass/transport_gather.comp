@@ -14,7 +14,7 @@ int degreeOf(int term) {
 
 void main() {
   int level = int(push.level);
-  int cell = int(gl_GlobalInvocationID.x);
+  int cell = threadOfStep();
   ivec3 size = volume.size[level].xyz;
   if (cell >= volume.size[level].w) {
     return;

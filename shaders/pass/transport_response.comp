@@ -60,7 +60,7 @@ float onRing(int ring, float height) {
 
 void main() {
   int directions = volume.place[0].y;
-  int node = int(gl_GlobalInvocationID.x);
+  int node = threadOfStep();
   if (node >= RESPONSE_NODES + directions + TRANSPORT_TERMS) {
     return;
   }

@@ -9,7 +9,7 @@ layout(local_size_x = 64) in;
 void main() {
   int level = int(push.level);  // the coarser one
   int cell = int(gl_GlobalInvocationID.x);
-  int term = int(gl_WorkGroupID.y);
+  int term = rowOfStep();
   if (cell >= volume.size[level].w) {
     return;
   }

@@ -8,7 +8,7 @@ layout(local_size_x = 64) in;
 
 void main() {
   int level = int(push.level);
-  int cell = int(gl_GlobalInvocationID.x);
+  int cell = threadOfStep();
   if (cell >= volume.size[level].w) {
     return;
   }

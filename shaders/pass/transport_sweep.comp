@@ -30,7 +30,7 @@ struct Slice {
 
 void main() {
   int level = int(push.level);
-  int direction = int(gl_WorkGroupID.y);
+  int direction = rowOfStep();
   TransportDirection d = directionAt(level, direction);
   ivec3 size = volume.size[level].xyz;
   ivec3 stride = strideOf(size);

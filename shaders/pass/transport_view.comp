@@ -11,7 +11,7 @@
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 7, std430) readonly buffer Pairs { vec4 pairs[]; };
-layout(set = 0, binding = 8, rgba32f) uniform writeonly image3D viewSource;
+layout(set = 0, binding = 8, rgba32f) uniform image3D viewSource;
 layout(set = 0, binding = 9, std140) uniform View { VolumeUniforms view; };
 
 #define PAIR_SHAPE view.pairShape
@@ -123,15 +123,20 @@ void main() {
   all *= 0.0795774715f;
   few = layer ? first * 0.0795774715f : few;
   few /= pairShape(towards);
+  vec4 shown = vec4(few, kept[extinctionAt(0, cell)]);
   // Filters read the cell after the last one, too, with weight 0 or nearly so: what stands there
   // may be of another volume or no number.
   ivec3 room = imageSize(viewSource) / ivec3(1, 1, 2);
+  if (push.weight < 1.0f) {
+    shown = mix(imageLoad(viewSource, place), shown, push.weight);
+    all = mix(imageLoad(viewSource, place + ivec3(0, 0, room.z)), all, push.weight);
+  }
   ivec3 more = min(ivec3(equal(place + 1, size)), room - size);
   for (int k = 0; k <= more.z; ++k) {
     for (int j = 0; j <= more.y; ++j) {
       for (int i = 0; i <= more.x; ++i) {
         ivec3 at = place + ivec3(i, j, k);
-        imageStore(viewSource, at, vec4(few, kept[extinctionAt(0, cell)]));
+        imageStore(viewSource, at, shown);
         imageStore(viewSource, at + ivec3(0, 0, room.z), all);
       }
     }

@@ -96,6 +96,7 @@ const char* wlkReasonName(uint32_t reason) {
     WELKIN_NAME(WLK_REASON_NO_LIGHT);
     WELKIN_NAME(WLK_REASON_NO_SKIP_FLAG);
     WELKIN_NAME(WLK_REASON_UNCHANGED);
+    WELKIN_NAME(WLK_REASON_SPREAD);
 #undef WELKIN_NAME
     default:
       return "WLK_UNKNOWN_REASON";

@@ -139,6 +139,7 @@ WlkQuality checkedQuality(const WlkQuality* quality) {
     checkRange(q.sType, "volumeCells", q.volumeCells, 8, 128);
   }
   checkRange(q.sType, "volumeResolution", q.volumeResolution, 0, WLK_VOLUME_RESOLUTION_HALF);
+  checkRange(q.sType, "lightFrames", q.lightFrames, 0, 64);
   checkRange(q.sType, "control", q.control, WLK_CONTROL_LEVEL, WLK_CONTROL_ERROR);
   checkRange(q.sType, "lowestLevel", q.lowestLevel, WLK_QUALITY_LOW, q.level);
   const bool timed = q.control == WLK_CONTROL_TIME || q.control == WLK_CONTROL_REPORTED_TIME;
@@ -164,7 +165,8 @@ WlkQuality checkedQuality(const WlkQuality* quality) {
 bool sameButGoal(const WlkQuality& a, const WlkQuality& b) {
   return a.control == b.control && a.level == b.level && a.lowestLevel == b.lowestLevel &&
          a.slicing == b.slicing && a.scattering == b.scattering && a.flags == b.flags &&
-         a.volumeCells == b.volumeCells && a.volumeResolution == b.volumeResolution;
+         a.volumeCells == b.volumeCells && a.volumeResolution == b.volumeResolution &&
+         a.lightFrames == b.lightFrames;
 }
 
 }  // namespace

@@ -303,6 +303,7 @@ SliceQuality resolveQuality(const WlkQuality& quality) {
   result.transport = scattering == WLK_SCATTERING_ALL_ORDERS;
   // Whole cells on the coarsest level.
   result.transportCells = (either(quality.volumeCells, level.transportCells) + 7) / 8 * 8;
+  result.lightFrames = std::max(quality.lightFrames, 1U);
   result.forwardScattering =
       scattering == WLK_SCATTERING_FORWARD || scattering == WLK_SCATTERING_FORWARD_INTEGER;
   result.wholeOrders = scattering == WLK_SCATTERING_FORWARD_INTEGER;

@@ -29,6 +29,7 @@ struct SliceQuality {
   // Light inside volumes on a grid of `transportCells` along each axis; excludes forwardScattering.
   bool transport;
   uint32_t transportCells;
+  uint32_t lightFrames;  // over which that light is renewed
   // Light-buffer texels and cells along an edge that the view's images have room for.
   uint32_t lightRoom;
   uint32_t cellRoom;

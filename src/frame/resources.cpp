@@ -11,7 +11,7 @@
 #include "frame/ladder.hpp"
 #include "frame/shadow_map_record.hpp"
 #include "frame/surface_record.hpp"
-#include "frame/transport.hpp"
+#include "frame/transport_record.hpp"
 #include "frame/uniforms.hpp"
 #include "frame/view_shadow.hpp"
 
@@ -60,18 +60,22 @@ class Draft {
 // view those of the sky table and of the composite; the last of both kinds again for froxels. Of
 // each surface three.
 VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t volumes,
-                          uint32_t surfaces, bool froxels) {
+                          uint32_t surfaces, uint32_t lights, bool froxels) {
   const uint32_t more = froxels ? 1 : 0;
-  const uint32_t sets = slots * ((3 + more) * volumes + 3 * surfaces + 3 + more);
+  const uint32_t spread = (lights - 1) * volumes;  // sets of further grids
+  const uint32_t sets = slots * ((3 + more) * volumes + spread + 3 * surfaces + 3 + more);
   const std::array sizes{
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-                           slots * ((6 + 2 * more) * volumes + 6 * surfaces + 3 + more)},
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                           slots * ((9 + 4 * more) * volumes + 33 * surfaces + 4 + 3 * more)},
+      VkDescriptorPoolSize{
+          VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+          slots * ((6 + 2 * more) * volumes + 2 * spread + 6 * surfaces + 3 + more)},
+      VkDescriptorPoolSize{
+          VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+          slots * ((9 + 4 * more) * volumes + 3 * spread + 33 * surfaces + 4 + 3 * more)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
-                           slots * ((3 + more) * volumes + 5 + 2 * more)},
-      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                           slots * ((24 + 14 * more) * volumes + 30 * surfaces + 8 + 7 * more)}};
+                           slots * ((3 + more) * volumes + spread + 5 + 2 * more)},
+      VkDescriptorPoolSize{
+          VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+          slots * ((24 + 14 * more) * volumes + 5 * spread + 30 * surfaces + 8 + 7 * more)}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.maxSets = sets;
   info.poolSizeCount = static_cast<uint32_t>(sizes.size());
@@ -97,7 +101,8 @@ VkDescriptorSet makeSet(const vk::Device& device, VkDescriptorPool pool,
 void makeSlots(vk::Device& device, const vk::Pipelines& pipelines, ViewResources& r,
                uint32_t framesInFlight, std::pmr::memory_resource* memory) {
   const bool froxels = static_cast<bool>(r.aerial.uniforms);
-  r.pool = makePool(device, framesInFlight, r.volumeCapacity, r.surfaceCapacity, froxels);
+  r.pool = makePool(device, framesInFlight, r.volumeCapacity, r.surfaceCapacity, r.transportLights,
+                    froxels);
   r.slots.reserve(framesInFlight);
   for (uint32_t i = 0; i < framesInFlight; ++i) {
     ViewSlot& slot = r.slots.emplace_back(memory);
@@ -115,7 +120,7 @@ void makeSlots(vk::Device& device, const vk::Pipelines& pipelines, ViewResources
     for (BoundSet& set : slot.froxels) {
       set.set = makeSet(device, r.pool, pipelines.volumeSetLayout());
     }
-    slot.transport.resize(r.grids.size());
+    slot.transport.resize(r.volumeLights.size() * r.transportLights);
     for (BoundSet& set : slot.transport) {
       set.set = makeSet(device, r.pool, pipelines.transportSetLayout());
     }
@@ -163,11 +168,22 @@ void makeTransport(vk::Device& device, const SliceQuality& quality, uint32_t vol
                    ViewResources& r) {
   const TransportSizes sizes =
       transportSizes({quality.transportCells, quality.transportCells, quality.transportCells});
-  r.transportWork = vk::Buffer(device, sizes.workBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
-  r.grids.resize(volumes);
-  for (TransportGrid& grid : r.grids) {
-    grid.kept = vk::Buffer(device, sizes.keptBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
-    grid.key.reserve(sizeof(interface_::TransportUniforms) + 2 * sizeof(uint64_t));
+  const auto list = [&](VkDeviceSize bytes) {
+    return vk::Buffer(device, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
+  };
+  const bool spread = r.transportLights > 1;
+  if (!spread) {
+    r.transportWork = list(sizes.workBytes);
+  }
+  r.volumeLights.resize(volumes);
+  for (VolumeLight& light : r.volumeLights) {
+    if (spread) {
+      light.work = list(sizes.workBytes);
+    }
+    for (uint32_t i = 0; i < r.transportLights; ++i) {
+      light.grids[i].kept = list(sizes.keptBytes);
+      light.grids[i].key.reserve(sizeof(interface_::TransportUniforms) + TRANSPORT_IDS);
+    }
   }
   vk::ImageInfo info;
   info.type = VK_IMAGE_TYPE_3D;
@@ -276,7 +292,9 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   const bool ambient = features.ambient && quality.ambientCells > 0;
   r.ambientStride = ambient ? alignUp(sizeof(interface_::AmbientUniforms), alignment) : 0;
   r.surfaceStride = alignUp(sizeof(interface_::SurfaceUniforms), alignment);
-  r.surfaceOffset = alignUp(r.transportOffset + volumeCount * r.transportStride, both);
+  r.transportLights = quality.transport && quality.lightFrames > 1 ? SPREAD_LIGHTS : 1;
+  const uint32_t lights = volumeCount * r.transportLights;
+  r.surfaceOffset = alignUp(r.transportOffset + lights * r.transportStride, both);
   r.ambientOffset =
       alignUp(r.surfaceOffset + VkDeviceSize{3} * features.surfaces * r.surfaceStride, both);
   r.slotStride = r.ambientOffset + alignUp(volumeCount * (r.ambientStride + r.volumeStride), both);

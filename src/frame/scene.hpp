@@ -15,6 +15,7 @@
 
 #include "frame/bricks.hpp"
 #include "frame/governor.hpp"
+#include "frame/light_schedule.hpp"
 #include "frame/plan.hpp"
 #include "frame/surface.hpp"
 #include "particles/diameter_nodes.hpp"
@@ -246,6 +247,14 @@ struct TransportGrid {
   std::vector<char> key;  // uniforms, volume and its version; empty: nothing yet
 };
 
+// The sun's light inside a volume, where it is computed over several frames in several grids.
+struct VolumeLight {
+  std::array<TransportGrid, SPREAD_LIGHTS> grids;  // the first alone where it is computed at once
+  vk::Buffer work;                                 // empty: the view's
+  LightSchedule schedule;
+  glm::dvec3 toLight{0};  // in the frame that was recorded last
+};
+
 struct ViewSlot {
   BoundSet composite;
   BoundSet aerial;
@@ -253,7 +262,7 @@ struct ViewSlot {
   BoundSet skyTable;
   std::pmr::vector<BoundSet> volumes;
   std::pmr::vector<BoundSet> froxels;    // of the volumes, where the view has aerial perspective
-  std::pmr::vector<BoundSet> transport;  // of the volumes by PlannedVolume::index
+  std::pmr::vector<BoundSet> transport;  // of the volumes' grids by PlannedVolume::index
   std::pmr::vector<BoundSet> ambient;    // likewise
   std::pmr::vector<BoundSet> surfaces;   // three of each: of its lights, of the view
   VkQueryPool queries = VK_NULL_HANDLE;
@@ -322,14 +331,19 @@ struct AerialResources {
 // Images and buffers of a view; remade by wlkPrepare when their sizes change.
 struct ViewResources {
   explicit ViewResources(std::pmr::memory_resource* memory)
-      : grids(memory), ambientGrids(memory), shadow(memory), shadowCasters(memory), slots(memory) {}
+      : volumeLights(memory),
+        ambientGrids(memory),
+        shadow(memory),
+        shadowCasters(memory),
+        slots(memory) {}
   vk::Image lightBuffer;
-  vk::Image viewSource;  // what cells of the volume in turn scatter towards the eye
-  vk::Buffer transportWork;
+  vk::Image viewSource;          // what cells of the volume in turn scatter towards the eye
+  vk::Buffer transportWork;      // where light is computed at once: one volume at a time
+  uint32_t transportLights = 1;  // grids of each volume
   VkDeviceSize transportStride = 0;
   VkDeviceSize transportOffset = 0;
-  std::pmr::vector<TransportGrid> grids;  // by PlannedVolume::index
-  vk::Image viewAmbient;                  // as viewSource, of the light of sky and ground
+  std::pmr::vector<VolumeLight> volumeLights;  // by PlannedVolume::index
+  vk::Image viewAmbient;                       // as viewSource, of the light of sky and ground
   vk::Buffer ambientWork;
   VkDeviceSize ambientStride = 0;
   VkDeviceSize ambientOffset = 0;

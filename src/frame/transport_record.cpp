@@ -6,24 +6,18 @@
 
 #include "frame/record.hpp"
 #include "frame/resources.hpp"
+#include "frame/transport_steps.hpp"
 
 namespace welkin {
 namespace {
 
+using interface_::TRANSPORT_GROUP;
 using interface_::TransportPush;
 using interface_::TransportUniforms;
 
-// Rounds over the level that is solved, the one below it in each of those, and over the coarsest.
-// On a cumulus of 32^3 cells 4, 5, 6 and 16 rounds give means of 0.989, 0.98, 0.978 and 0.97.
-struct Rounds {
-  uint32_t begun, solved, middle, coarsest;
-};
-constexpr Rounds ROUNDS{5, 5, 2, 10};
-// Cells of a layer's coarsest level are optically thick, and hold light for long: at optical depth
-// 64 the rounds above let a fifth too little through (32 cells). The level that begins from no
-// light takes the most: extrapolation would multiply what is missing there.
-constexpr Rounds LAYER_ROUNDS{14, 5, 2, 20};
-constexpr uint32_t GROUP = 64;
+// Light's direction between two frames beyond which what is known of it is of no use, cosine of 5
+// degrees: scattered light changes by its own size within some tens.
+constexpr double JUMP = 0.99619469809;
 
 class TransportRecorder {
  public:
@@ -33,89 +27,34 @@ class TransportRecorder {
         pipelines_(pipelines),
         commands_(commands),
         shape_(shape),
-        fields_(fields),
-        sizes_(transportSizes(shape.cells)),
-        rounds_(shape.layer ? LAYER_ROUNDS : ROUNDS) {}
+        fields_(fields) {}
 
-  void compute() {
-    if (shape_.layer) {
-      const uint32_t directions = transportDirections(0, shape_);
-      dispatch(vk::Pass::TransportResponse, 0, 0,
-               interface_::RESPONSE_ZENITHS * interface_::RESPONSE_AZIMUTHS + directions +
-                   interface_::TRANSPORT_TERMS,
-               1);
-    }
-    dispatch(vk::Pass::TransportDepth, 0, 0, 4 * rays(0), 1);
-    for (uint32_t level = 0; level < interface_::TRANSPORT_LEVELS; ++level) {
-      dispatch(vk::Pass::TransportCells, level, 0, sizes_.cells[level], 1);
-    }
-    solve(1, 0);
-    dispatch(vk::Pass::TransportExtrapolate, 1, 0, sizes_.cells[1], 1);
-    solve(0, interface_::TRANSPORT_COARSER);
-    dispatch(vk::Pass::TransportExtrapolate, 0, 0, sizes_.cells[0], 1);
-    result.computed = true;
+  void compute(const LightStep& part) {
+    TransportSteps(shape_).visit(part.from, part.to, part.parts,
+                                 [this](const TransportStep& step, uint32_t first, uint32_t units) {
+                                   const bool rows = step.rows > 1;
+                                   dispatch(step.pass, {step.level, step.flags, first, 1},
+                                            rows ? step.groups : units, rows ? units : 1);
+                                 });
   }
 
-  void show() { dispatch(vk::Pass::TransportView, 0, 0, sizes_.cells[0], 1); }
+  void show(float weight) {
+    const uint32_t cells = shape_.cells[0] * shape_.cells[1] * shape_.cells[2];
+    dispatch(vk::Pass::TransportView, {0, 0, 0, weight},
+             (cells + TRANSPORT_GROUP - 1) / TRANSPORT_GROUP, 1);
+  }
 
   TransportCommands result;
 
  private:
-  // Light of a level by itself, from what the coarser one has found or from none.
-  void solve(uint32_t level, uint32_t from) {
-    sweep(level, interface_::TRANSPORT_FIRST_SWEEP);
-    dispatch(vk::Pass::TransportSource, level, interface_::TRANSPORT_SECOND_SWEEP,
-             sizes_.cells[level], 1);
-    sweep(level, interface_::TRANSPORT_SECOND_SWEEP);
-    dispatch(vk::Pass::TransportSource, level, from, sizes_.cells[level], 1);
-    const uint32_t rounds = level == 0 ? rounds_.solved : rounds_.begun;
-    for (uint32_t round = 0; round < rounds; ++round) {
-      cycle(level);
-    }
-  }
-
-  // At most, of a direction.
-  uint32_t rays(uint32_t level) const {
-    const uint32_t x = shape_.cells[0] >> level;
-    const uint32_t y = shape_.cells[1] >> level;
-    const uint32_t z = shape_.cells[2] >> level;
-    return std::max({x * y, y * z, z * x});
-  }
-
-  void sweep(uint32_t level, uint32_t flags) {
-    dispatch(vk::Pass::TransportSweep, level, flags, rays(level),
-             transportDirections(level, shape_));
-    dispatch(vk::Pass::TransportGather, level, flags, sizes_.cells[level], 1);
-  }
-
-  // One round of scattering, then what the coarser levels know about all that follow.
-  void cycle(uint32_t level) {
-    sweep(level, 0);
-    const uint32_t below = level + 1;
-    uint32_t flags = 0;
-    if (below < interface_::TRANSPORT_LEVELS) {
-      dispatch(vk::Pass::TransportRestrict, below, 0, sizes_.cells[below],
-               interface_::TRANSPORT_TERMS);
-      dispatch(vk::Pass::TransportSource, below, 0, sizes_.cells[below], 1);
-      const bool last = below + 1 == interface_::TRANSPORT_LEVELS;
-      for (uint32_t round = 0; round < (last ? rounds_.coarsest : rounds_.middle); ++round) {
-        cycle(below);
-      }
-      flags = interface_::TRANSPORT_COARSER;
-    }
-    dispatch(vk::Pass::TransportSource, level, flags, sizes_.cells[level], 1);
-  }
-
-  void dispatch(vk::Pass pass, uint32_t level, uint32_t flags, uint32_t threads, uint32_t rows) {
+  void dispatch(vk::Pass pass, const TransportPush& push, uint32_t groups, uint32_t rows) {
     vk_.CmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE,
                         pipelines_.find(transportKey(pass, fields_)));
-    const TransportPush push{level, flags, 0, 0};
     vk_.CmdPushConstants(commands_, pipelines_.transportLayout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                          sizeof push, &push);
-    const uint32_t groups = (threads + GROUP - 1) / GROUP;
     vk_.CmdDispatch(commands_, groups, rows, 1);
     result.dispatches += 1;
-    result.invocations += uint64_t{groups} * GROUP * rows;
+    result.invocations += uint64_t{groups} * TRANSPORT_GROUP * rows;
     constexpr VkAccessFlags2 WRITE = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
     constexpr VkAccessFlags2 READ =
         VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
@@ -129,21 +68,69 @@ class TransportRecorder {
   VkCommandBuffer commands_;
   TransportShape shape_;
   uint32_t fields_;
-  TransportSizes sizes_;
-  Rounds rounds_;
 };
 
-// Whether the grid holds what it would be computed from now; remembers it.
-bool remembered(TransportGrid& grid, const TransportUniforms& uniforms, uint64_t volume,
-                uint64_t version) {
-  const std::array<uint64_t, 2> ids{volume, version};
-  const size_t size = sizeof uniforms + sizeof ids;
-  std::array<char, sizeof uniforms + sizeof ids> now;
-  std::memcpy(now.data(), &uniforms, sizeof uniforms);
-  std::memcpy(now.data() + sizeof uniforms, ids.data(), sizeof ids);
-  const bool same = grid.key.size() == size && std::memcmp(grid.key.data(), now.data(), size) == 0;
-  grid.key.assign(now.begin(), now.end());  // reserved
-  return same;
+// What light is computed from.
+struct LightKey {
+  TransportUniforms uniforms;
+  std::array<uint64_t, 2 + WLK_MAX_FIELDS> ids;  // of the volume, its contents, the engine's images
+};
+static_assert(sizeof(LightKey) == sizeof(TransportUniforms) + TRANSPORT_IDS);
+
+// Bit by bit: no key has padding.
+bool equal(const LightKey& a, const LightKey& b) {
+  const auto* x = reinterpret_cast<const char*>(&a);
+  return std::equal(x, x + sizeof a, reinterpret_cast<const char*>(&b));
+}
+
+void remember(TransportGrid& grid, const LightKey& key) {
+  const auto* bytes = reinterpret_cast<const char*>(&key);
+  grid.key.assign(bytes, bytes + sizeof key);  // reserved
+}
+
+// Whether both are of one volume as it is, under whatever light.
+bool sameVolume(const LightKey& a, const LightKey& b) {
+  LightKey under = b;
+  TransportUniforms& u = under.uniforms;
+  std::memcpy(u.directions, a.uniforms.directions, sizeof u.directions);
+  std::memcpy(u.rows, a.uniforms.rows, sizeof u.rows);
+  std::memcpy(u.lightFrame, a.uniforms.lightFrame, sizeof u.lightFrame);
+  u.light = a.uniforms.light;
+  u.travel = a.uniforms.travel;
+  return equal(a, under);
+}
+
+// Against the light that was complete last.
+LightChange changeOf(const VolumeLight& light, const LightKey& now, const glm::dvec3& toLight) {
+  const std::vector<char>& key = light.grids[light.schedule.newest()].key;
+  LightKey before;
+  if (key.size() != sizeof before) {
+    return LightChange::Other;
+  }
+  std::memcpy(&before, key.data(), sizeof before);
+  const bool near = glm::dot(light.toLight, toLight) >= JUMP;
+  if (near && equal(before, now)) {
+    // The engine may have written its images since.
+    const bool external =
+        std::any_of(now.ids.begin() + 2, now.ids.end(), [](uint64_t image) { return image != 0; });
+    return external ? LightChange::Moved : LightChange::None;
+  }
+  return near && sameVolume(before, now) ? LightChange::Moved : LightChange::Other;
+}
+
+void bindFields(Bindings& bindings, BoundSet& set, VkSampler sampler, const RecordVolume& volume,
+                VkImageView none) {
+  const VolumeState& state = *volume.state;
+  for (uint32_t i = 0; i < WLK_MAX_FIELDS; ++i) {
+    VkImageView image = none;
+    if (i < state.fieldCount && state.fields[i].external) {
+      image = volume.externalViews[i];
+    } else if (i < state.fieldCount && state.fields[i].image) {
+      image = state.fields[i].image.view();
+    }
+    bindings.image(set, vk::BIND_TRANSPORT_FIELD0 + i, image, sampler,
+                   VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+  }
 }
 
 }  // namespace
@@ -155,51 +142,67 @@ TransportCommands recordTransport(const vk::Device& device, const vk::Pipelines&
   ViewResources& r = view.resources;
   const RecordVolume& volume = in.volumes[planned.index];
   const VolumeState& state = *volume.state;
-  const TransportShape shape = transportShape(state, view.plan.quality.transportCells);
-  TransportGrid& grid = r.grids[planned.index];
-  BoundSet& set = r.slots[in.slot].transport[planned.index];
-  const VkDeviceSize offset =
-      in.slot * r.slotStride + r.transportOffset + planned.index * r.transportStride;
-  TransportUniforms uniforms;
-  fillTransport(state, view.plan.lights.light[0].toLight, shape, uniforms);
-  std::memcpy(static_cast<char*>(r.uniforms.data()) + offset, &uniforms, sizeof uniforms);
-
-  bindings.buffer(set, vk::BIND_TRANSPORT_UNIFORMS, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-                  r.uniforms.handle(), offset, sizeof uniforms);
-  bindings.buffer(set, vk::BIND_TRANSPORT_WORK, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                  r.transportWork.handle(), 0, r.transportWork.size());
-  bindings.buffer(set, vk::BIND_TRANSPORT_KEPT, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                  grid.kept.handle(), 0, grid.kept.size());
-  bindings.buffer(set, vk::BIND_TRANSPORT_PAIRS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                  state.pairTable.handle(), 0, state.pairTable.size());
-  bindings.image(set, vk::BIND_TRANSPORT_TARGET, r.viewSource.view(), VK_NULL_HANDLE,
-                 VK_IMAGE_LAYOUT_GENERAL);
-  bindings.buffer(set, vk::BIND_TRANSPORT_VIEW, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-                  r.uniforms.handle(), viewUniforms, sizeof(interface_::VolumeUniforms));
-  bool external = false;
-  for (uint32_t i = 0; i < WLK_MAX_FIELDS; ++i) {
-    VkImageView image = in.dummy3d;
-    if (i < state.fieldCount && state.fields[i].external) {
-      image = volume.externalViews[i];
-      external = true;  // the engine may have written it since
-    } else if (i < state.fieldCount && state.fields[i].image) {
-      image = state.fields[i].image.view();
+  const SliceQuality& quality = view.plan.quality;
+  const TransportShape shape = transportShape(state, quality.transportCells);
+  VolumeLight& light = r.volumeLights[planned.index];
+  const glm::dvec3 toLight = view.plan.lights.light[0].toLight;
+  LightKey now{};
+  fillTransport(state, toLight, shape, now.uniforms);
+  now.ids = {planned.id, state.version};
+  for (uint32_t i = 0; i < state.fieldCount; ++i) {
+    if (state.fields[i].external) {
+      std::memcpy(&now.ids[2 + i], &volume.externalViews[i], sizeof now.ids[2 + i]);
     }
-    bindings.image(set, vk::BIND_TRANSPORT_FIELD0 + i, image, pipelines.linear(),
-                   VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   }
-  bindings.image(set, vk::BIND_TRANSPORT_PAGES, state.pages ? state.pages.view() : in.dummy3d,
-                 pipelines.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-  device.vk().CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
-                                    pipelines.transportLayout(), 0, 1, &set.set, 0, nullptr);
+  const LightStep step = light.schedule.next(
+      always ? LightChange::Other : changeOf(light, now, toLight), quality.lightFrames);
+  light.toLight = toLight;
+  if (step.begins) {
+    remember(light.grids[step.target], now);
+  }
+
+  // Makes a grid that of the passes that follow.
+  const auto use = [&](uint32_t index) {
+    const uint32_t place = planned.index * r.transportLights + index;
+    const TransportGrid& grid = light.grids[index];
+    const vk::Buffer& work = light.work ? light.work : r.transportWork;
+    BoundSet& set = r.slots[in.slot].transport[place];
+    const VkDeviceSize offset =
+        in.slot * r.slotStride + r.transportOffset + place * r.transportStride;
+    std::memcpy(static_cast<char*>(r.uniforms.data()) + offset, grid.key.data(),
+                sizeof(TransportUniforms));
+    bindings.buffer(set, vk::BIND_TRANSPORT_UNIFORMS, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                    r.uniforms.handle(), offset, sizeof(TransportUniforms));
+    bindings.buffer(set, vk::BIND_TRANSPORT_WORK, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, work.handle(),
+                    0, work.size());
+    bindings.buffer(set, vk::BIND_TRANSPORT_KEPT, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                    grid.kept.handle(), 0, grid.kept.size());
+    bindings.buffer(set, vk::BIND_TRANSPORT_PAIRS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                    state.pairTable.handle(), 0, state.pairTable.size());
+    bindings.image(set, vk::BIND_TRANSPORT_TARGET, r.viewSource.view(), VK_NULL_HANDLE,
+                   VK_IMAGE_LAYOUT_GENERAL);
+    bindings.buffer(set, vk::BIND_TRANSPORT_VIEW, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                    r.uniforms.handle(), viewUniforms, sizeof(interface_::VolumeUniforms));
+    bindFields(bindings, set, pipelines.linear(), volume, in.dummy3d);
+    bindings.image(set, vk::BIND_TRANSPORT_PAGES, state.pages ? state.pages.view() : in.dummy3d,
+                   pipelines.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    device.vk().CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+                                      pipelines.transportLayout(), 0, 1, &set.set, 0, nullptr);
+  };
   TransportRecorder recorder(device, pipelines, commands, shape, state.fieldKind());
-  if (!remembered(grid, uniforms, planned.id, state.version) || always || external) {
-    recorder.compute();
+  if (step.computes()) {
+    use(step.target);
+    recorder.compute(step);
   }
-  if (external) {
-    grid.key.clear();  // what was uploaded may be back in the next frame
+  if (step.weight < 1) {
+    use(step.before);
+    recorder.show(1);
   }
-  recorder.show();
+  use(step.shown);
+  recorder.show(step.weight);
+  recorder.result.reason = step.computes() && step.parts == 1   ? planned.lightReason
+                           : step.computes() || step.weight < 1 ? uint32_t{WLK_REASON_SPREAD}
+                                                                : uint32_t{WLK_REASON_UNCHANGED};
   return recorder.result;
 }
 

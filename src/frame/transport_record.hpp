@@ -9,11 +9,14 @@
 
 namespace welkin {
 
+// Bytes of a grid's key beside its uniforms.
+constexpr size_t TRANSPORT_IDS = (2 + size_t{WLK_MAX_FIELDS}) * sizeof(uint64_t);
+
 struct TransportCommands {
   uint32_t dispatches = 0;
   uint32_t barriers = 0;
   uint64_t invocations = 0;
-  bool computed = false;  // not kept from an earlier frame
+  uint32_t reason = WLK_REASON_NEEDED;
 };
 
 // `viewUniforms`: range of the volume's constants in this view. Leaves its own descriptor set

@@ -111,7 +111,7 @@ class VolumeRecorder {
       const TransportCommands made =
           recordTransport(c_.device, c_.pipelines, c_.commands, c_.view, planned_, c_.in,
                           c_.bindings, volumeOffset(), c_.quality.noSkip);
-      stats.reason = made.computed ? planned_.lightReason : uint32_t{WLK_REASON_UNCHANGED};
+      stats.reason = made.reason;
       stats.recorded = 1;
       stats.commands = made.dispatches;
       stats.invocations = made.invocations;

@@ -137,6 +137,8 @@ TEST(Limits, OfTheQualityAreChecked) {
       {"volumeCells", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.volumeCells = 129; }},
       {"volumeCells", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.volumeCells = HUGE_COUNT; }},
       {"volumeResolution", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.volumeResolution = 3; }},
+      {"lightFrames", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.lightFrames = 65; }},
+      {"lightFrames", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.lightFrames = HUGE_COUNT; }},
       {"control", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.control = 4; }},
       {"lowestLevel", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.lowestLevel = WLK_QUALITY_ULTRA; }},
       {"timeBudget_ms", WLK_ERROR_INVALID_ARGUMENT, [](Q& q) { q.timeBudget_ms = 1; }},
