@@ -95,7 +95,7 @@ TEST(Limits, OfViewsAreChecked) {
       {"targetFormat", WLK_ERROR_UNSUPPORTED_FORMAT, [](Info& v) { v.targetFormat = 0; }},
       {"targetFormat", WLK_ERROR_UNSUPPORTED_FORMAT, [](Info& v) { v.targetFormat = 4; }},
       {"targetFormat", WLK_ERROR_UNSUPPORTED_FORMAT, [](Info& v) { v.targetFormat = HUGE_COUNT; }},
-      {"layers", WLK_ERROR_INVALID_ARGUMENT, [](Info& v) { v.layers = 0x20; }},
+      {"layers", WLK_ERROR_INVALID_ARGUMENT, [](Info& v) { v.layers = 0x40; }},
       {"layers", WLK_ERROR_INVALID_ARGUMENT, [](Info& v) { v.layers = ~uint64_t{0}; }}};
   for (const auto& test : cases) {
     auto info = make<Info>();
