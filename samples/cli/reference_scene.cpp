@@ -287,6 +287,10 @@ ReferenceScene makeReferenceScene(WlkContext context, const host::Scene& scene,
   if (fog) {
     out.layers.push_back(fogLayer(truths, *scene.fog, scene.fogMedium));
   }
+  if (layer(WLK_LAYER_SURFACES) && !scene.surfaces.empty()) {
+    throw host::InputError(scene.file, "surfaces",
+                           "expected each with \"as\": \"volume\": the reference has no meshes");
+  }
   if (layer(WLK_LAYER_VOLUMES)) {
     std::vector<TruthMedium> media;
     for (const host::MediumDesc& medium : scene.media) {

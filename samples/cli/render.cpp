@@ -101,7 +101,7 @@ void run(const RenderOptions& options) {
   const host::ContextPtr owner = host::makeHeadlessContext(options.validate, options.device, log);
   WlkContext context = owner.get();
   host::applyWorld(context, scene);
-  host::applyVolumes(context, scene, progress);
+  host::applyBodies(context, scene, progress);
   const WlkView view = host::applyView(context, scene);
   const host::RasterResult opaque = host::makeOpaque(context, scene, progress);
   const host::ShadowMap shadow = host::makeShadowMap(scene, progress);

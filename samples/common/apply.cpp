@@ -163,6 +163,23 @@ void applyVolume(WlkContext context, const Scene& scene, size_t index,
   }
 }
 
+void applySurface(WlkContext context, const Scene& scene, size_t index, WlkMedium medium) {
+  const SurfaceDesc& desc = scene.surfaces[index];
+  const CloudMesh mesh = makeMesh(desc.shape);
+  auto info = make<WlkSurfaceInfo>();
+  info.medium = medium;
+  info.extinction = static_cast<float>(desc.extinction);
+  info.vertexCount = static_cast<uint32_t>(mesh.positions.size());
+  info.triangleCount = static_cast<uint32_t>(mesh.triangles.size());
+  info.positions = mesh.positions.data()->data();
+  info.indices = mesh.triangles.data()->data();
+  const Affine place = placeMesh(mesh, desc.placement);
+  std::copy(place.begin(), place.end(), info.worldFromSurface);
+  WlkSurface surface{};
+  check(wlkCreateSurface(context, &info, &surface), scene.file,
+        "surfaces." + std::to_string(index));
+}
+
 DepthImage readDepth(const Scene& scene) {
   DepthImage depth = readExrDepth(scene.opaqueFiles->depth);
   if (scene.opaqueFiles->kind == DepthKind::View) {
@@ -211,7 +228,7 @@ void applyWorld(WlkContext context, const Scene& scene) {
   applyFog(context, scene);
 }
 
-void applyVolumes(WlkContext context, const Scene& scene, const Progress& progress) {
+void applyBodies(WlkContext context, const Scene& scene, const Progress& progress) {
   std::vector<WlkMedium> media(scene.media.size());
   for (size_t i = 0; i < media.size(); ++i) {
     const WlkMediumInfo info = mediumInfo(scene.media[i]);
@@ -224,6 +241,10 @@ void applyVolumes(WlkContext context, const Scene& scene, const Progress& progre
     } else {
       applyVolume(context, scene, i, media);
     }
+  }
+  for (size_t i = 0; i < scene.surfaces.size(); ++i) {
+    progress("surface " + std::to_string(i + 1) + " of " + std::to_string(scene.surfaces.size()));
+    applySurface(context, scene, i, media[scene.surfaces[i].medium]);
   }
 }
 

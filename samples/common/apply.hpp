@@ -23,8 +23,8 @@ using Progress = std::function<void(const std::string&)>;
 /// Sets planet, air, lights and fog. Enough for the CPU queries.
 void applyWorld(WlkContext context, const Scene& scene);
 
-/// Creates media and volumes and uploads the voxels.
-void applyVolumes(WlkContext context, const Scene& scene, const Progress& progress);
+/// Creates media, volumes with their voxels, and surfaces.
+void applyBodies(WlkContext context, const Scene& scene, const Progress& progress);
 
 /// Creates the view with its camera and quality.
 WlkView applyView(WlkContext context, const Scene& scene);

@@ -177,6 +177,10 @@ CloudMesh makeMesh(const StratocumulusMesh& shape) {
   return mesh;
 }
 
+CloudMesh makeMesh(const MeshShape& shape) {
+  return std::visit([](const auto& kind) { return makeMesh(kind); }, shape);
+}
+
 Affine boundsOf(const CloudMesh& mesh) {
   std::array<double, 3> low{};
   std::array<double, 3> high{};

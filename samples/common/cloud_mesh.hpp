@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <variant>
 #include <vector>
 
 #include "common/vec.hpp"
@@ -63,6 +64,9 @@ struct CumulusMesh {
   uint32_t seed = 1;
 };
 CloudMesh makeMesh(const CumulusMesh& shape);
+
+using MeshShape = std::variant<SphereMesh, BoxMesh, StratocumulusMesh, CumulusMesh>;
+CloudMesh makeMesh(const MeshShape& shape);
 
 /// The part of each voxel that the mesh encloses, in its bounding box; `resolution` voxels along
 /// the longest edge. Where the mesh meets itself, parts add.

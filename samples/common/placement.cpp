@@ -14,7 +14,7 @@ struct Bounds {
   Vec3 high = low * -1.0;
 };
 
-Bounds boundsOf(const Affine& m) {
+Bounds aroundBox(const Affine& m) {
   Bounds bounds;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 p =
@@ -46,7 +46,7 @@ Vec3 rotate(Vec3 v, Vec3 degrees) {
 }  // namespace
 
 Affine placeVolume(const Affine& natural, const PlacementDesc& placement) {
-  const Bounds bounds = boundsOf(natural);
+  const Bounds bounds = aroundBox(natural);
   const Vec3 edges = bounds.high - bounds.low;
   const auto factor = [](double size, double edge) { return edge > 0.0 ? size / edge : 0.0; };
   Vec3 scale{placement.scale, placement.scale, placement.scale};
@@ -64,6 +64,20 @@ Affine placeVolume(const Affine& natural, const PlacementDesc& placement) {
   const Vec3 origin = move({});
   return affineFromEdges(origin, move({1.0, 0.0, 0.0}) - origin, move({0.0, 1.0, 0.0}) - origin,
                          move({0.0, 0.0, 1.0}) - origin);
+}
+
+Affine placeMesh(const CloudMesh& mesh, const PlacementDesc& placement) {
+  const Affine box = boundsOf(mesh);
+  Affine place = placeVolume(box, placement);
+  // The box's axes are the mesh's: undoing its size and corner takes a division and a difference.
+  for (size_t row = 0; row < 12; row += 4) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double edge = box[5 * axis];
+      place[row + axis] = edge > 0.0 ? place[row + axis] / edge : 0.0;
+      place[row + 3] -= place[row + axis] * box[4 * axis + 3];
+    }
+  }
+  return place;
 }
 
 }  // namespace host

@@ -64,10 +64,12 @@ Json readSceneJson(const std::string& file, const std::vector<std::string>& assi
 Scene parseScene(const Json& json, const std::string& file) {
   const JsonNode root(json, file);
   root.onlyKeys({"description", "atmosphere", "planet", "sky", "absorber", "ambient", "lights",
-                 "fog", "media", "volumes", "quality", "view", "camera", "opaque", "png"});
+                 "fog", "media", "volumes", "surfaces", "quality", "view", "camera", "opaque",
+                 "png"});
   Scene scene;
   scene.file = file;
   parseVolumes(root, scene);
+  parseSurfaces(root, scene);
   parseWorld(root, scene);
   parseView(root, scene);
   if (scene.geometry && scene.geometry->terrain && scene.planet.up[1] < 0.999999f) {

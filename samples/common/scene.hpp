@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/camera.hpp"
+#include "common/cloud_mesh.hpp"
 #include "common/geometry.hpp"
 #include "common/image.hpp"
 #include "common/json.hpp"
@@ -30,11 +31,17 @@ struct MediumDesc {
 /// `info` with its pointers; valid as long as `medium` is neither changed nor moved.
 WlkMediumInfo mediumInfo(const MediumDesc& medium);
 
+/// What a mesh fills.
+struct MeshInfo {
+  MeshShape shape;
+  uint32_t resolution = 128;
+};
+
 /// Where a grid comes from.
 struct SourceDesc {
   /// Empty for generated data.
   std::filesystem::path file;
-  std::variant<RawInfo, LesInfo, VdbInfo, CumulusInfo, SlabInfo, GradientInfo> info;
+  std::variant<RawInfo, LesInfo, VdbInfo, CumulusInfo, SlabInfo, GradientInfo, MeshInfo> info;
 };
 
 /// Loads or makes the grid. Throws InputError.
@@ -56,6 +63,9 @@ struct PlacementDesc {
 /// rejects.
 Affine placeVolume(const Affine& natural, const PlacementDesc& placement);
 
+/// The map from a mesh's own frame to the world, which moves its bounding box as a volume's.
+Affine placeMesh(const CloudMesh& mesh, const PlacementDesc& placement);
+
 struct FieldDesc {
   /// Index into Scene::media.
   size_t medium = 0;
@@ -67,6 +77,15 @@ struct FieldDesc {
 
 struct VolumeDesc {
   std::vector<FieldDesc> fields;
+  PlacementDesc placement;
+};
+
+struct SurfaceDesc {
+  /// Index into Scene::media.
+  size_t medium = 0;
+  /// 1/m.
+  double extinction = 0.05;
+  MeshShape shape;
   PlacementDesc placement;
 };
 
@@ -96,6 +115,8 @@ struct Scene {
   std::optional<MediumDesc> fogMedium;
   std::vector<MediumDesc> media;
   std::vector<VolumeDesc> volumes;
+  /// Without those that are drawn as volumes.
+  std::vector<SurfaceDesc> surfaces;
   WlkQuality quality{};
   WlkViewInfo view{};
   CameraDesc camera;
@@ -122,7 +143,14 @@ void readUserPhase(const std::string& file, MediumDesc& medium);
 /// Parts of parseScene, one file each. The world may name media: parse the volumes before it.
 void parseWorld(const JsonNode& root, Scene& scene);
 void parseVolumes(const JsonNode& root, Scene& scene);
+/// After the volumes, to which it adds.
+void parseSurfaces(const JsonNode& root, Scene& scene);
 void parseView(const JsonNode& root, Scene& scene);
+PlacementDesc parsePlacement(const JsonNode& node);
+/// Three positive lengths, m.
+Vec3 positiveVec3(const JsonNode& node);
+/// The index of the medium of that name.
+size_t findMedium(const JsonNode& node, const Scene& scene);
 std::filesystem::path resolvePath(const JsonNode& node);
 
 }  // namespace host

@@ -52,11 +52,12 @@ WlkViewInfo parseViewInfo(const JsonNode& node) {
   }
   if (node.has("layers")) {
     view.layers = 0;
-    constexpr std::array<uint64_t, 6> LAYERS = {WLK_LAYER_SKY,     WLK_LAYER_FOG,
-                                                WLK_LAYER_VOLUMES, WLK_LAYER_SUN_DISK,
-                                                WLK_LAYER_GROUND,  WLK_LAYER_ALL};
+    constexpr std::array<uint64_t, 7> LAYERS = {
+        WLK_LAYER_SKY,    WLK_LAYER_FOG, WLK_LAYER_VOLUMES, WLK_LAYER_SUN_DISK,
+        WLK_LAYER_GROUND, WLK_LAYER_ALL, WLK_LAYER_SURFACES};
     for (const JsonNode& layer : node.at("layers").elements()) {
-      view.layers |= LAYERS[layer.word({"sky", "fog", "volumes", "sunDisk", "ground", "all"})];
+      view.layers |=
+          LAYERS[layer.word({"sky", "fog", "volumes", "sunDisk", "ground", "all", "surfaces"})];
     }
   }
   if (node.has("composite")) {

@@ -10,6 +10,42 @@
 #include "common/slab.hpp"
 
 namespace host {
+
+Vec3 positiveVec3(const JsonNode& node) {
+  const Vec3 value = node.vec3();
+  if (!(std::min({value.x, value.y, value.z}) > 0.0)) {
+    node.fail("expected three positive lengths in m");
+  }
+  return value;
+}
+
+PlacementDesc parsePlacement(const JsonNode& node) {
+  node.onlyKeys({"min", "size", "origin", "scale", "rotation_deg"});
+  PlacementDesc placement;
+  placement.box = node.has("min") || node.has("size");
+  if (placement.box) {
+    if (node.has("origin") || node.has("scale")) {
+      node.fail("expected min and size, or origin and scale, not both");
+    }
+    placement.min = node.at("min").vec3();
+    placement.size = positiveVec3(node.at("size"));
+  }
+  node.optional("origin", placement.origin);
+  node.optional("scale", placement.scale, 1e-6, 1e6);
+  node.optional("rotation_deg", placement.rotationDeg);
+  return placement;
+}
+
+size_t findMedium(const JsonNode& node, const Scene& scene) {
+  const std::string name = node.text();
+  const auto found = std::find_if(scene.media.begin(), scene.media.end(),
+                                  [&](const MediumDesc& medium) { return medium.name == name; });
+  if (found == scene.media.end()) {
+    node.fail("expected the name of one of media");
+  }
+  return static_cast<size_t>(found - scene.media.begin());
+}
+
 namespace {
 
 UpAxis parseUp(const JsonNode& node, UpAxis preset) {
@@ -25,14 +61,6 @@ std::array<uint32_t, 3> parseSize(const JsonNode& node) {
     node.fail("expected [nx, ny, nz]");
   }
   return {edges[0].count(1, 1u << 20), edges[1].count(1, 1u << 20), edges[2].count(1, 1u << 20)};
-}
-
-Vec3 positiveVec3(const JsonNode& node) {
-  const Vec3 value = node.vec3();
-  if (!(std::min({value.x, value.y, value.z}) > 0.0)) {
-    node.fail("expected three positive lengths in m");
-  }
-  return value;
 }
 
 RawInfo parseRaw(const JsonNode& node) {
@@ -143,34 +171,11 @@ SourceDesc parseSource(const JsonNode& node) {
   return source;
 }
 
-PlacementDesc parsePlacement(const JsonNode& node) {
-  node.onlyKeys({"min", "size", "origin", "scale", "rotation_deg"});
-  PlacementDesc placement;
-  placement.box = node.has("min") || node.has("size");
-  if (placement.box) {
-    if (node.has("origin") || node.has("scale")) {
-      node.fail("expected min and size, or origin and scale, not both");
-    }
-    placement.min = node.at("min").vec3();
-    placement.size = positiveVec3(node.at("size"));
-  }
-  node.optional("origin", placement.origin);
-  node.optional("scale", placement.scale, 1e-6, 1e6);
-  node.optional("rotation_deg", placement.rotationDeg);
-  return placement;
-}
-
 FieldDesc parseField(const JsonNode& node, const std::optional<SourceDesc>& shared,
                      const Scene& scene) {
   node.onlyKeys({"medium", "extinctionScale", "source", "diameters"});
   FieldDesc field;
-  const std::string name = node.at("medium").text();
-  const auto found = std::find_if(scene.media.begin(), scene.media.end(),
-                                  [&](const MediumDesc& medium) { return medium.name == name; });
-  if (found == scene.media.end()) {
-    node.at("medium").fail("expected the name of one of media");
-  }
-  field.medium = static_cast<size_t>(found - scene.media.begin());
+  field.medium = findMedium(node.at("medium"), scene);
   node.optional("extinctionScale", field.extinctionScale, 0.0, 1e6);
   if (node.has("source")) {
     field.source = parseSource(node.at("source"));
@@ -334,6 +339,9 @@ Grid loadSource(const SourceDesc& source) {
     Grid operator()(const CumulusInfo& info) const { return makeCumulus(info); }
     Grid operator()(const SlabInfo& info) const { return makeSlab(info); }
     Grid operator()(const GradientInfo& info) const { return makeGradient(info); }
+    Grid operator()(const MeshInfo& info) const {
+      return voxelise(makeMesh(info.shape), info.resolution);
+    }
   };
   return std::visit(Loader{source.file}, source.info);
 }

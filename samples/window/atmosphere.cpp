@@ -65,7 +65,7 @@ Atmosphere::Atmosphere(const Gpu& gpu, VkExtent2D extent, uint32_t composite,
       toSun_ = {direction[0], direction[1], direction[2]};
     }
     host::applyWorld(context_, *scene);
-    host::applyVolumes(context_, *scene, [](const std::string&) {});
+    host::applyBodies(context_, *scene, [](const std::string&) {});
   } else {
     createScene();
     createClouds(settings);

@@ -6,7 +6,7 @@ namespace bench {
 World::World(const Case& one, bool analytic) : scene_(sceneOf(one, analytic)) {
   context_ = host::makeHeadlessContext(false, "", log_);
   host::applyWorld(context_.get(), scene_);
-  host::applyVolumes(context_.get(), scene_, [](const std::string&) {});
+  host::applyBodies(context_.get(), scene_, [](const std::string&) {});
 }
 
 WlkView World::addView(const WlkQuality& quality) {
