@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <variant>
 #include <vector>
 
@@ -65,7 +66,14 @@ struct CumulusMesh {
 };
 CloudMesh makeMesh(const CumulusMesh& shape);
 
-using MeshShape = std::variant<SphereMesh, BoxMesh, StratocumulusMesh, CumulusMesh>;
+/// Wavefront OBJ: all its objects together, polygons as triangles. Throws InputError: no file, not
+/// OBJ, no faces, over 64 MiB.
+struct MeshFile {
+  std::filesystem::path file;
+};
+CloudMesh makeMesh(const MeshFile& shape);
+
+using MeshShape = std::variant<SphereMesh, BoxMesh, StratocumulusMesh, CumulusMesh, MeshFile>;
 CloudMesh makeMesh(const MeshShape& shape);
 
 /// The part of each voxel that the mesh encloses, in its bounding box; `resolution` voxels along

@@ -71,10 +71,10 @@ CumulusMesh parseCumulus(const JsonNode& node) {
 }
 
 MeshShape parseMesh(const JsonNode& node) {
-  node.onlyKeys({"sphere", "box", "stratocumulus", "cumulus"});
+  node.onlyKeys({"sphere", "box", "stratocumulus", "cumulus", "file"});
   const auto members = node.members();
   if (members.size() != 1) {
-    node.fail("expected one of sphere, box, stratocumulus, cumulus");
+    node.fail("expected one of sphere, box, stratocumulus, cumulus, file");
   }
   const auto& [name, shape] = members.front();
   if (name == "sphere") {
@@ -85,6 +85,9 @@ MeshShape parseMesh(const JsonNode& node) {
   }
   if (name == "stratocumulus") {
     return parseStratocumulus(shape);
+  }
+  if (name == "file") {
+    return MeshFile{resolvePath(shape)};
   }
   return parseCumulus(shape);
 }
