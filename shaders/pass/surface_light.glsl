@@ -62,8 +62,12 @@ vec3 surfaceScattered(sampler2D columns, sampler2D faces, sampler3D source, samp
   LightFootprint here = surfaceFootprint(columns, faces, map, place, 0.0, depth - shade);
   float through = footprintMean(here.through, here.coverage);
   float share = lightDepthShare(shade * map.extinction, through);
-  TangentSlab local = tangentSlab(through, through * share, directionOr(here.lit, TO_LIGHT),
-                                  TO_LIGHT, toEye);
+  LightFootprint some = surfaceFootprint(
+      columns, faces, map, place,
+      footprintLevel(LOCAL_SPREAD / max(map.extinction, 1e-20), map.texel), depth - shade);
+  float across = footprintMean(some.through, some.coverage);
+  TangentSlab local = tangentSlab(across, depthInSlab(across, share, through),
+                                  directionOr(some.lit, TO_LIGHT), TO_LIGHT, toEye);
   float angle = slabAngle(-toEye.z, length(toEye.xy)) * 0.3183098861837907;
   vec3 sum = vec3(0.0);
   for (int set = 0; set < SURFACE_SETS; ++set) {
@@ -71,7 +75,7 @@ vec3 surfaceScattered(sampler2D columns, sampler2D faces, sampler3D source, samp
     LightFootprint around =
         surfaceFootprint(columns, faces, map, place, footprintLevel(spread, map.texel),
                          depth - shade);
-    SurfaceSlab found = surfaceSlab(set, around, share, TO_LIGHT, toEye);
+    SurfaceSlab found = surfaceSlab(set, around, share, through, TO_LIGHT, toEye);
     SourcePlace at = sourcePlace(set, found.slab);
     float logPhase =
         textureLod(curves, vec2((angle * 180.0 + 0.5) / 181.0, (float(set) + 0.5) / 8.0), 0.0).x;

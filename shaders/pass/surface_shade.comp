@@ -175,7 +175,7 @@ vec3 ambientAt(vec3 p, vec3 direction) {
   LightFootprint around =
       surfaceFootprint(upColumns, upFaces, map, place, footprintLevel(spread, map.texel),
                        at.depth - shade);
-  TangentSlab slab = surfaceSlab(AMBIENT_SET, around, share, UP, toEye).slab;
+  TangentSlab slab = surfaceSlab(AMBIENT_SET, around, share, through, UP, toEye).slab;
   SharePlace node = sharePlace(slab.thickness, slab.depth, slab.muView);
   float view = min(floor(node.view), float(SHARE_VIEWS) - 2.0f);
   float rows = float(SHARE_THICKNESSES);

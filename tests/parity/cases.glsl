@@ -140,7 +140,7 @@ ParityResult parityCase(int which, ParityRow r) {
     around.lit = head(r.a);
     around.shaded = head(r.b);
     around.rise = r.e.y;
-    SurfaceSlab found = surfaceSlab(int(r.e.x), around, r.c.w, head(r.d), head(r.c));
+    SurfaceSlab found = surfaceSlab(int(r.e.x), around, r.c.w, r.e.z, head(r.d), head(r.c));
     o.first = vec4(found.slab.thickness, found.slab.depth, found.slab.muLight, found.inside);
     o.second.x = footprintSpread(int(r.e.x), found.slab);
   }

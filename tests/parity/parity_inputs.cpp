@@ -178,6 +178,7 @@ void footprintRow(Random& random, size_t i, Row& row) {
   row[11] = random.uniform(0, 1);
   row[16] = static_cast<float>(i % 8) + 0.5f;
   row[17] = random.uniform(-10, 10);
+  row[18] = row[7] / std::max(row[3], 0.02f) * random.logarithmic(0.3, 3);
 }
 
 void sourceRow(Random& random, size_t i, Row& row) {

@@ -45,13 +45,17 @@ double expected(const SurfaceSource& source, const float* row) {
   const f64::LightFootprint here = footprint(x, y, 0, extinction);
   const double through = f64::footprintMean(here.through, here.coverage);
   const double share = f64::lightDepthShare(static_cast<double>(row[2]) * extinction, through);
-  const f64::TangentSlab local =
-      f64::tangentSlab(through, through * share, f64::directionOr(here.lit, light), light, eye);
+  const f64::LightFootprint some =
+      footprint(x, y, f64::footprintLevel(f64::LOCAL_SPREAD / extinction, texel), extinction);
+  const double across = f64::footprintMean(some.through, some.coverage);
+  const f64::TangentSlab local = f64::tangentSlab(across, f64::depthInSlab(across, share, through),
+                                                  f64::directionOr(some.lit, light), light, eye);
   double sum = 0;
   for (int set = 0; set < f64::SURFACE_SETS; ++set) {
     const double level = f64::footprintLevel(f64::footprintSpread(set, local) / extinction, texel);
-    const f64::SurfaceSlab found = f64::surfaceSlab(
-        set, footprint(x, y, level, extinction, static_cast<double>(row[2])), share, light, eye);
+    const f64::SurfaceSlab found =
+        f64::surfaceSlab(set, footprint(x, y, level, extinction, static_cast<double>(row[2])),
+                         share, through, light, eye);
     sum += found.inside * surfaceSourceAt(source, static_cast<size_t>(set),
                                           {found.slab.thickness, found.slab.depth,
                                            found.slab.muLight, found.slab.muView, found.slab.phi});

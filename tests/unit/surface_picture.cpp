@@ -139,9 +139,12 @@ double surfaceRadiance(const reference::Body& body, const LightMap& map,
   const double through = footprintMean(here.through, here.coverage);
   const double shade = lengthOf(body.inside(at, TO_LIGHT));
   const double share = lightDepthShare(shade, through);
+  const LightTexel some =
+      map.at(at[0], at[1], footprintLevel(LOCAL_SPREAD / cloud.scale, map.texel()));
+  const double across = cloud.scale * footprintMean(some.through, some.coverage);
   const TangentSlab local =
-      tangentSlab(cloud.scale * through, cloud.scale * through * share,
-                  directionOr(vec(here.lit), vec(TO_LIGHT)), vec(TO_LIGHT), toEye);
+      tangentSlab(across, depthInSlab(across, share, cloud.scale * through),
+                  directionOr(vec(some.lit), vec(TO_LIGHT)), vec(TO_LIGHT), toEye);
   double sum = 0;
   for (int set = 0; set < SURFACE_SETS; ++set) {
     const double spread = footprintSpread(set, local) / cloud.scale;
@@ -150,7 +153,8 @@ double surfaceRadiance(const reference::Body& body, const LightMap& map,
     const double rise = at[2] + shade - footprintMean(wide.top, wide.coverage);
     const LightFootprint around = {wide.coverage, cloud.scale * wide.through, vec(wide.lit),
                                    vec(wide.shaded), cloud.scale * rise};
-    const SurfaceSlab found = surfaceSlab(set, around, share, vec(TO_LIGHT), toEye);
+    const SurfaceSlab found =
+        surfaceSlab(set, around, share, cloud.scale * through, vec(TO_LIGHT), toEye);
     sum += found.inside * surfaceSourceAt(source, static_cast<size_t>(set),
                                           {found.slab.thickness, found.slab.depth,
                                            found.slab.muLight, found.slab.muView, found.slab.phi});

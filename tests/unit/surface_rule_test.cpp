@@ -55,7 +55,8 @@ TEST(SurfaceRule, SlabIsTheSlabWhateverTheSet) {
   const f64::vec3 eye = glm::normalize(f64::vec3(0.5, 0.6, 0.7));
   const f64::TangentSlab truth = f64::tangentSlab(9, 9 * 0.3, normal, light, eye);
   for (int set = 0; set < f64::SURFACE_SETS; ++set) {
-    const f64::SurfaceSlab found = f64::surfaceSlab(set, {1, 9, normal, -normal}, 0.3, light, eye);
+    const f64::SurfaceSlab found =
+        f64::surfaceSlab(set, {1, 9, normal, -normal}, 0.3, 9, light, eye);
     EXPECT_NEAR(found.slab.thickness, truth.thickness, 1e-9);
     EXPECT_NEAR(found.slab.depth, truth.depth, 1e-9);
     EXPECT_NEAR(found.slab.muLight, truth.muLight, 1e-9);
@@ -107,7 +108,7 @@ TEST(SurfaceRule, IsFiniteForAnyMap) {
           for (int set = 0; set < f32::SURFACE_SETS; ++set) {
             const float rise = set % 2 == 0 ? through : -through;
             const f32::SurfaceSlab found = f32::surfaceSlab(
-                set, {coverage, through * coverage, lit, shaded, rise}, 0.5f, up, up);
+                set, {coverage, through * coverage, lit, shaded, rise}, 0.5f, through, up, up);
             EXPECT_TRUE(std::isfinite(found.slab.thickness));
             EXPECT_TRUE(std::isfinite(f32::footprintSpread(set, found.slab)));
             const f32::SourcePlace place = f32::sourcePlace(set, found.slab);

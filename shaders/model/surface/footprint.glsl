@@ -44,6 +44,10 @@ real diffuseWidth(real thickness, real depth) {
               depth * max(real(0.75f) * thickness - real(12.0f), real(0.0f)));
 }
 
+// Of the slab that widths are taken from: single texels of a bumpy face would draw their light rays
+// on the other side of the cloud.
+const real LOCAL_SPREAD = real(1.7);
+
 // Spread of a set's footprint on one axis of the light map, seen along the light; `local`: the slab
 // at the point itself.
 const real SPREAD_THICKEST = real(1e6);
@@ -72,9 +76,9 @@ vec3 directionOr(vec3 v, vec3 other) {
 // points lies in it. Of a walk whose end lies in a disc with the probability 1 - e^-x a smaller
 // part has stayed there all the way, the less the more steps it takes: the power 1 + l / x of that
 // probability is the shape of the walk's survival, and light that has gone deep has walked longer.
-const real LEAK_FEW = real(0.09);
-const real LEAK_MANY = real(0.48);
-const real LEAK_DEPTH = real(2.2);
+const real LEAK_FEW = real(0.06);
+const real LEAK_MANY = real(0.40);
+const real LEAK_DEPTH = real(2.6);
 real footprintSurvival(int set, real coverage, real depthShare) {
   real a = clamp(coverage, real(1e-6), real(0.999999));
   real leak = set < 2 ? real(0.0f) : (set < SURFACE_DIFFUSE ? LEAK_FEW : LEAK_MANY);
@@ -88,7 +92,7 @@ real footprintSurvival(int set, real coverage, real depthShare) {
 // from such hills, so that a valley as deep keeps as much. Diffuse light falls to 0 HILL_FACE above
 // a face; wider collectors see more of the hill. Where the footprint is not all cloud,
 // footprintSurvival counts what is lost sideways.
-const real HILL_LOSS = real(1.2);
+const real HILL_LOSS = real(1.05);
 const real HILL_FACE = real(2.86);  // SOURCE_BEHIND
 const real HILL_WIDTH = real(0.2);
 real hillKept(int set, real coverage, real rise) {
@@ -98,9 +102,20 @@ real hillKept(int set, real coverage, real rise) {
                  (HILL_FACE + HILL_WIDTH * collectorWidth(set)));
 }
 
-// The slab of a set at a point that the part depthShare in [0, 1] of the cloud on its light ray
-// shades, from the means over the set's footprint.
-SurfaceSlab surfaceSlab(int set, LightFootprint around, real depthShare, vec3 toLight, vec3 toEye) {
+// Depth in a slab `through` thick of a point that the part `share` of the `here` of cloud on its
+// light ray shades: next to either face as far from it as on the ray, half way down half way. Where
+// `here` is `through`, the depth on the ray.
+real depthInSlab(real through, real share, real here) {
+  real weight = share * share * (real(3.0f) - real(2.0f) * share);
+  real depth = (real(1.0f) - weight) * share * here +
+               weight * (through - (real(1.0f) - share) * here);
+  return clamp(depth, real(0.0f), max(through, real(0.0f)));
+}
+
+// The slab of a set at a point that the part depthShare in [0, 1] of the cloud on its light ray,
+// `here` in all, shades, from the means over the set's footprint.
+SurfaceSlab surfaceSlab(int set, LightFootprint around, real depthShare, real here, vec3 toLight,
+                        vec3 toEye) {
   real through = footprintMean(max(around.through, real(0.0f)), around.coverage);
   vec3 lit = directionOr(around.lit, toLight);
   vec3 shaded = directionOr(around.shaded, -toLight);
@@ -108,7 +123,8 @@ SurfaceSlab surfaceSlab(int set, LightFootprint around, real depthShare, vec3 to
   real across = through * max(dot(lit, toLight), real(0.0f));
   vec3 normal = slabNormal(lit, shaded, across / width);
   SurfaceSlab result;
-  result.slab = tangentSlab(through, through * depthShare, normal, toLight, toEye);
+  result.slab =
+      tangentSlab(through, depthInSlab(through, depthShare, here), normal, toLight, toEye);
   result.inside = footprintSurvival(set, around.coverage, depthShare) *
                   hillKept(set, around.coverage, around.rise * result.slab.muLight);
   return result;
