@@ -49,6 +49,9 @@ inline constexpr WlkStructType structType(const WlkMediumOptics&) {
 inline constexpr WlkStructType structType(const WlkSurfaceInfo&) {
   return WLK_STRUCT_SURFACE_INFO;
 }
+inline constexpr WlkStructType structType(const WlkSurfaceDetail&) {
+  return WLK_STRUCT_SURFACE_DETAIL;
+}
 inline constexpr WlkStructType structType(const WlkVolumeInfo&) {
   return WLK_STRUCT_VOLUME_INFO;
 }

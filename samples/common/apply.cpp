@@ -178,6 +178,15 @@ void applySurface(WlkContext context, const Scene& scene, size_t index, WlkMediu
   WlkSurface surface{};
   check(wlkCreateSurface(context, &info, &surface), scene.file,
         "surfaces." + std::to_string(index));
+  auto detail = make<WlkSurfaceDetail>();
+  detail.depth = static_cast<float>(desc.detail.depth);
+  detail.size = static_cast<float>(desc.detail.size);
+  detail.softness = static_cast<float>(desc.detail.softness);
+  detail.offset[0] = static_cast<float>(desc.detail.offset.x);
+  detail.offset[1] = static_cast<float>(desc.detail.offset.y);
+  detail.offset[2] = static_cast<float>(desc.detail.offset.z);
+  check(wlkSetSurfaceDetail(context, surface, &detail), scene.file,
+        "surfaces." + std::to_string(index) + ".detail");
 }
 
 DepthImage readDepth(const Scene& scene) {

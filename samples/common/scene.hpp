@@ -80,6 +80,14 @@ struct VolumeDesc {
   PlacementDesc placement;
 };
 
+/// As WlkSurfaceDetail, m.
+struct DetailDesc {
+  double depth = 0;
+  double size = 0;
+  double softness = 0.3;
+  Vec3 offset{};
+};
+
 struct SurfaceDesc {
   /// Index into Scene::media.
   size_t medium = 0;
@@ -87,6 +95,7 @@ struct SurfaceDesc {
   double extinction = 0.05;
   MeshShape shape;
   PlacementDesc placement;
+  DetailDesc detail;
 };
 
 enum class DepthKind { Device, View };

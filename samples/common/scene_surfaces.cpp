@@ -92,8 +92,19 @@ MeshShape parseMesh(const JsonNode& node) {
   return parseCumulus(shape);
 }
 
+DetailDesc parseDetail(const JsonNode& node) {
+  node.onlyKeys({"depth", "size", "softness", "offset"});
+  DetailDesc detail;
+  node.optional("depth", detail.depth, 0.0, 1e6);
+  node.optional("size", detail.size, 0.0, 1e6);
+  node.optional("softness", detail.softness, 0.05, 1.0);
+  node.optional("offset", detail.offset);
+  return detail;
+}
+
 void parseSurface(const JsonNode& node, Scene& scene) {
-  node.onlyKeys({"mesh", "medium", "extinction", "transform", "time", "as", "resolution"});
+  node.onlyKeys({"mesh", "medium", "extinction", "transform", "time", "as", "resolution",
+                 "detail"});
   SurfaceDesc surface;
   surface.medium = findMedium(node.at("medium"), scene);
   node.optional("extinction", surface.extinction, 0.0, 1e6);
@@ -107,6 +118,9 @@ void parseSurface(const JsonNode& node, Scene& scene) {
       node.at("time").fail("expected only with a stratocumulus");
     }
     sheet->time = node.at("time").number(0.0, 1e6);
+  }
+  if (node.has("detail")) {
+    surface.detail = parseDetail(node.at("detail"));
   }
   const bool volume = node.has("as") && node.at("as").word({"surface", "volume"}) == 1;
   if (!volume) {

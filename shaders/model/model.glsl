@@ -18,6 +18,7 @@
 #include "volume/canonical_slab.glsl"
 #include "surface/triangle.glsl"
 #include "surface/chord.glsl"
+#include "surface/shell.glsl"
 #include "surface/tangent_slab.glsl"
 #include "surface/collector.glsl"
 #include "surface/footprint.glsl"

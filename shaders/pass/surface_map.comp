@@ -9,6 +9,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 // From a level that is there, not from triangles.
 layout(constant_id = 3) const bool FROM_LEVEL = false;
 #include "surface_mesh.glsl"
+#include "surface_shell.glsl"
 #include "../interface/slices.glsl"
 layout(set = 0, binding = 7, std430) writeonly buffer Depths { vec4 depths[]; };
 layout(set = 0, binding = 8, std430) readonly buffer Faces { SurfaceFaces faces[]; };
@@ -34,6 +35,17 @@ vec3 normalOf(uint triangle) {
   return directionOr(cross(p[1] - p[0], p[2] - p[0]), vec3(0.0f));
 }
 
+// Metres of cloud that detail leaves on a texel's way.
+float eaten(Inside inside, vec2 place) {
+  vec4 origin = vec4(place, 0.0f, 1.0f);
+  ShellRay ray;
+  ray.origin =
+      vec3(dot(surface.cellX, origin), dot(surface.cellY, origin), dot(surface.cellZ, origin));
+  ray.slope = vec3(surface.cellX.z, surface.cellY.z, surface.cellZ.z);
+  ray.width = surface.detail.w;
+  return shellMarch(inside, ray, 0.0f).filled;
+}
+
 MapTexel fromTriangles(uvec2 texel, uint size) {
   uint at = texel.y * size + texel.x;
   SurfaceCover cover = surfaceCover[at];
@@ -42,18 +54,27 @@ MapTexel fromTriangles(uvec2 texel, uint size) {
   result.face = vec4(0.0f);
   depths[at] = vec4(0.0f);
   if (cover.chord > 0 && cover.front != 0u) {
-    float metre = 1.0f / surface.steps.y;
     uint lit = faces[at].lit;
     uint shaded = faces[at].shaded;
     vec3 near = lit > 0u ? normalOf(lit - 1u) : vec3(0.0f);
     vec3 far = shaded > 0u ? normalOf(shaded - 1u) : vec3(0.0f);
     near = near.z < 0.0f ? -near : near;
     far = far.z > 0.0f ? -far : far;
-    float through = float(cover.chord) * metre;
-    result.column = vec4(1.0f, through, near.xy);
-    result.face = vec4(near.z, far.xy, float(~cover.front) * metre);
-    depths[at] = vec4(float(~cover.front) * metre, float(~cover.leave) * metre,
-                      float(cover.back) * metre, through);
+    float metre = 1.0f / surface.steps.y;
+    Inside inside;
+    inside.front = float(~cover.front) * metre;
+    inside.leave = float(~cover.leave) * metre;
+    inside.back = float(cover.back) * metre;
+    inside.chord = float(cover.chord) * metre;
+    float through = inside.chord;
+    if (surface.detail.x > 0.0f) {
+      through = eaten(inside, (vec2(texel) + 0.5f) / float(size));
+    }
+    if (through > 0.0f) {
+      result.column = vec4(1.0f, through, near.xy);
+      result.face = vec4(near.z, far.xy, inside.front);
+    }
+    depths[at] = vec4(inside.front, inside.leave, inside.back, inside.chord);
   }
   return result;
 }

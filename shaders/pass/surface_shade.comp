@@ -46,18 +46,11 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 #include "sky_lookup.glsl"
 #include "air_nodes.glsl"
 #include "surface_light.glsl"
+#include "surface_shell.glsl"
 
 // Along a chord, of equal opacity.
 const int STRETCHES = 6;
 const float LONGEST_CHORD = 1.0e7f;  // m
-
-// Where a ray is inside, m from the eye: from front to leave, then up to back, `chord` in all.
-struct Inside {
-  float front;
-  float leave;
-  float back;
-  float chord;
-};
 
 Inside insideOf(SurfaceCover cover, float metre, float first) {
   Inside inside;
@@ -74,11 +67,24 @@ Inside insideOf(SurfaceCover cover, float metre, float first) {
   return inside;
 }
 
-// Distance of the point that has `depth` metres of the cloud in front of it: of two stretches and a
-// gap that is exact.
-float pointAt(Inside inside, float depth) {
-  float near = inside.front + depth;
-  return near <= inside.leave ? near : max(inside.back - (inside.chord - depth), inside.leave);
+// For a surface's detail.
+ShellRay shellRay(Inside inside, vec3 direction) {
+  ShellRay ray;
+  ray.origin = vec3(surface.cellX.w, surface.cellY.w, surface.cellZ.w);
+  ray.slope = vec3(dot(surface.cellX.xyz, direction), dot(surface.cellY.xyz, direction),
+                   dot(surface.cellZ.xyz, direction));
+  ray.width = surface.detail.w * inside.front;
+  return ray;
+}
+
+// From the point at distance t of another one.
+ShellRay shellRayTo(ShellRay from, float t, vec3 direction) {
+  ShellRay ray;
+  ray.origin = from.origin + t * from.slope;
+  ray.slope = vec3(dot(surface.cellX.xyz, direction), dot(surface.cellY.xyz, direction),
+                   dot(surface.cellZ.xyz, direction));
+  ray.width = from.width;
+  return ray;
 }
 
 // Where a point lies in a light map: the first of four texels around it and the part of the way to
@@ -144,24 +150,31 @@ SurfaceMap mapOf(vec4 row) {
   return map;
 }
 
-// Light scattered at least twice: J at the point, per unit irradiance.
-vec3 scatteredAt(vec3 p, vec3 direction) {
+// Light scattered at least twice: J at the point, per unit irradiance. `lost`: of the metres between
+// it and the light.
+vec3 scatteredAt(vec3 p, vec3 direction, float lost) {
   vec4 q = vec4(p, 1.0f);
   vec3 toEye = eyeInMap(surface.lightX, surface.lightY, surface.lightZ, surface.map, direction);
   return surfaceScattered(columns, faces, source, curves, mapOf(surface.map),
                           vec2(dot(surface.lightX, q), dot(surface.lightY, q)),
-                          dot(surface.lightZ, q), shadeAt(p), toEye, surface.orders);
+                          dot(surface.lightZ, q) - lost, max(shadeAt(p) - lost, 0.0f), toEye,
+                          surface.orders);
 }
 
 // The source that sky and ground make at a point: in the slab along the vertical that the footprint
 // of a set of some scatterings finds, each of its faces in what its side sees of both.
 const int AMBIENT_SET = 4;
-vec3 ambientAt(vec3 p, vec3 direction) {
+vec3 ambientAt(vec3 p, vec3 direction, ShellRay shell, float distance_) {
   const vec3 UP = vec3(0.0f, 0.0f, 1.0f);
   MapPlace at = mapPlace(surface.upX, surface.upY, surface.upZ, surface.upMap, p);
   uint below = at.first + uint(surface.upMap.z);
   float shade = shadeOf(at, upDepths[at.first], upDepths[at.first + 1u], upDepths[below],
                         upDepths[below + 1u]);
+  if (surface.detail.x > 0.0f) {
+    float lost = shellShadeLost(shellRayTo(shell, distance_, -surface.upZ.xyz), shade);
+    shade -= lost;
+    at.depth -= lost;
+  }
   vec4 q = vec4(p, 1.0f);
   vec2 place = vec2(dot(surface.upX, q), dot(surface.upY, q));
   vec3 toEye = eyeInMap(surface.upX, surface.upY, surface.upZ, surface.upMap, direction);
@@ -209,7 +222,15 @@ void main() {
     vec3 direction = pixelDirection(frame, vec2(pixel));
     float along = 1.0f / max(dot(direction, surface.axis.xyz), 1.0e-4f);
     Inside inside = insideOf(cover, along / surface.steps.y, along * surface.steps.x);
-    float tau = surface.optics.y * inside.chord;
+    ShellRay shell;
+    ShellMarch march;
+    march.filled = inside.chord;
+    march.lost = 0.0f;
+    if (surface.detail.x > 0.0f) {
+      shell = shellRay(inside, direction);
+      march = shellMarch(inside, shell, surface.optics.y);
+    }
+    float tau = surface.optics.y * march.filled;
     AirNodes nodes = airNodes(direction, inside.front, inside.back);
     float through = 1.0f;
     vec3 sum = vec3(0.0f);
@@ -217,14 +238,29 @@ void main() {
     vec3 peak = LIGHT_ENABLED ? phaseAt(1u, direction) : vec3(0.0f);
     float begin = 0.0f;
     ChordLight whole = emptyChord();
-    float shadeNear = LIGHT_ENABLED ? shadeAt(inside.front * direction) : 0.0f;
+    float depth = surface.optics.z * march.filled;
+    float sample_ = min(chordDepth(SURFACE_SAMPLE, depth) / max(surface.optics.z, 1.0e-20f),
+                        march.filled);
+    float distance_ = pointAt(inside, march.lost + sample_);
+    float near = pointAt(inside, march.lost);
+    float shadeNear = LIGHT_ENABLED ? shadeAt(near * direction) : 0.0f;
+    // What detail takes from the way to the light at the first point and at the one whose light
+    // stands for all; between them linear.
+    vec2 lost = vec2(0.0f);
+    if (LIGHT_ENABLED && surface.detail.x > 0.0f) {
+      vec3 toLight = frame.lights[0].direction.xyz;
+      lost.x = shellShadeLost(shellRayTo(shell, near, toLight), shadeNear);
+      lost.y = shellShadeLost(shellRayTo(shell, distance_, toLight), shadeAt(distance_ * direction));
+      shadeNear -= lost.x;
+    }
     for (int i = 1; i <= STRETCHES; ++i) {
       float end = chordDepth(float(i) / float(STRETCHES), tau) / max(surface.optics.y, 1.0e-20f);
       float length_ = max(end - begin, 0.0f);
-      AirAt air = airAt(nodes, pointAt(inside, begin + 0.5f * length_));
+      AirAt air = airAt(nodes, pointAt(inside, march.lost + begin + 0.5f * length_));
       float passed = exp(-min(surface.optics.y * end, EXP_CUT));
       if (LIGHT_ENABLED) {
-        float shadeFar = shadeAt(pointAt(inside, end) * direction);
+        float taken = mix(lost.x, lost.y, min(end / max(sample_, 1.0e-20f), 1.0f));
+        float shadeFar = max(shadeAt(pointAt(inside, march.lost + end) * direction) - taken, 0.0f);
         float once = through * segmentInscatter(surface.optics.y * shadeNear,
                                                 surface.optics.y * shadeFar,
                                                 surface.optics.y * length_);
@@ -237,23 +273,20 @@ void main() {
       }
       sum += air.radiance * (through - passed);
       if (DISTANCE) {
-        hidden += (through - passed) * vec2(pointAt(inside, begin + 0.5f * length_), 1.0f);
+        hidden += (through - passed) * vec2(pointAt(inside, march.lost + begin + 0.5f * length_), 1.0f);
       }
       through = passed;
       begin = end;
     }
     if (LIGHT_ENABLED || AMBIENT) {
-      float depth = surface.optics.z * inside.chord;
-      float sample_ = chordDepth(SURFACE_SAMPLE, depth) / max(surface.optics.z, 1.0e-20f);
-      float distance_ = pointAt(inside, min(sample_, inside.chord));
       vec3 p = distance_ * direction;
       AirAt air = airAt(nodes, distance_);
       vec3 light = vec3(0.0f);
       if (LIGHT_ENABLED) {
-        light += oneMinusExp(depth) * scatteredAt(p, direction) * air.light;
+        light += oneMinusExp(depth) * scatteredAt(p, direction, lost.y) * air.light;
       }
       if (AMBIENT) {
-        light += (1.0f - through) * ambientAt(p, direction);
+        light += (1.0f - through) * ambientAt(p, direction, shell, distance_);
       }
       sum += light * air.transmittance;
     }

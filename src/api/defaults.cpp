@@ -100,6 +100,12 @@ WlkSurfaceInfo surface() {
   return s;
 }
 
+WlkSurfaceDetail surfaceDetail() {
+  auto d = blank<WlkSurfaceDetail>(WLK_STRUCT_SURFACE_DETAIL);
+  d.softness = 0.3f;
+  return d;
+}
+
 WlkVolumeUpload upload() {
   auto u = blank<WlkVolumeUpload>(WLK_STRUCT_VOLUME_UPLOAD);
   u.format = WLK_FORMAT_R32_FLOAT;
@@ -225,6 +231,8 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
       return write(volume(), structSize, structure);
     case WLK_STRUCT_SURFACE_INFO:
       return write(surface(), structSize, structure);
+    case WLK_STRUCT_SURFACE_DETAIL:
+      return write(surfaceDetail(), structSize, structure);
     case WLK_STRUCT_VOLUME_UPLOAD:
       return write(upload(), structSize, structure);
     case WLK_STRUCT_VOLUME_BRICKS:

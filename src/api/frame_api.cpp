@@ -204,7 +204,7 @@ void recordUpdate(WlkContext_T& c, VkCommandBuffer commands) {
   }
   // Room first: from the first command on nothing may throw.
   c.retired.reserve(c.retired.size() + c.pending.size() + 1 +
-                    size_t{SCATTERING_FORMS} * c.volumes.count() + c.surfaces.count() + 1);
+                    size_t{SCATTERING_FORMS} * c.volumes.count() + c.surfaces.count() + 2);
   clearOnce(vk, commands, c.dummy2d);
   clearOnce(vk, commands, c.dummy3d);
   clearOnce(vk, commands, c.dummyArray);

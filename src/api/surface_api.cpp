@@ -44,6 +44,25 @@ WlkSurfaceInfo checkedInfo(const WlkSurfaceInfo* info) {
   return s;
 }
 
+SurfaceDetail checkedDetail(const WlkSurfaceDetail* detail) {
+  const WlkSurfaceDetail d = copyStruct(detail, WLK_STRUCT_SURFACE_DETAIL);
+  checkNoChain(detail);
+  checkRange(d.sType, "depth", d.depth, 0, 1e6);
+  checkRange(d.sType, "size", d.size, 0, 1e6);
+  checkRange(d.sType, "softness", d.softness, 0.05F, 1);
+  for (const float x : d.offset) {
+    checkRange(d.sType, "offset", x, -SURFACE_POSITION_MAX, SURFACE_POSITION_MAX);
+  }
+  // Far below a millimetre lumps are none.
+  constexpr double LEAST = 1e-6;
+  SurfaceDetail result;
+  result.depth = d.depth < LEAST ? 0.0 : double{d.depth};
+  result.size = std::max(d.size > 0 ? double{d.size} : 2 * result.depth, LEAST);
+  result.softness = double{d.softness};
+  result.offset = {d.offset[0], d.offset[1], d.offset[2]};
+  return result;
+}
+
 glm::dmat4x3 transformOf(const double* m) {
   return {m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10], m[3], m[7], m[11]};
 }
@@ -95,6 +114,25 @@ void fillSurface(WlkContext_T& c, const WlkSurfaceInfo& s, const SurfaceMesh& me
                       state.optics.curve.size() * sizeof state.optics.curve[0],
                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   state.optics.curve = {};
+}
+
+// Cells for detail so deep, where there are not as many.
+void useShell(WlkContext_T& c, SurfaceState& surface, double depth) {
+  vk::Device& device = c.requireDevice("wlkSetSurfaceDetail");
+  const std::array<uint32_t, 3> cells = shellCells(surface, depth);
+  if (surface.shell.depth && cells == surface.shell.cells) {
+    return;
+  }
+  vk::Image made = makeShell(device, cells, c.surfaceTables);
+  if (surface.shell.depth) {
+    Retired& old = c.retired.emplace_back(&c.memory);
+    old.frame = c.frameIndex;
+    old.images[0] = std::move(surface.shell.depth);
+    c.forgetBindings();
+  }
+  surface.shell.depth = std::move(made);
+  surface.shell.cells = cells;
+  surface.shell.version = 0;
 }
 
 void checkPlaces(const float* positions, uint32_t count, uint32_t stride) {
@@ -154,6 +192,24 @@ WlkResult wlkSetSurfaceTransform(WlkContext context, WlkSurface surface,
     checkPointer(worldFromSurface, "worldFromSurface");
     checkTransform(WLK_STRUCT_SURFACE_INFO, "worldFromSurface", worldFromSurface);
     state.worldFromMesh = transformOf(worldFromSurface);
+    return WLK_SUCCESS;
+  });
+}
+
+WlkResult wlkSetSurfaceDetail(WlkContext context, WlkSurface surface,
+                              const WlkSurfaceDetail* detail) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    SurfaceState& state = c.surface(surface);
+    if (detail == nullptr) {
+      state.detail = {};
+      return WLK_SUCCESS;
+    }
+    const SurfaceDetail checked = checkedDetail(detail);
+    if (checked.depth > 0) {
+      useShell(c, state, checked.depth);
+    }
+    state.detail = checked;
     return WLK_SUCCESS;
   });
 }

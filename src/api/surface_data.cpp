@@ -6,6 +6,7 @@
 
 #include "frame/ladder.hpp"
 #include "frame/surface_record.hpp"
+#include "tables/detail_noise.hpp"
 
 namespace welkin {
 namespace {
@@ -42,6 +43,22 @@ void copyTable(WlkContext_T& c, VkCommandBuffer commands, vk::Buffer& from, vk::
   c.bytesUploaded += from.size();
   ++c.updateCopies;
   room = std::move(from);
+}
+
+// All levels, from fine to coarse.
+void copyNoise(WlkContext_T& c, VkCommandBuffer commands, vk::Buffer& room) {
+  SurfaceTables& tables = c.surfaceTables;
+  for (uint32_t level = 0; level < DETAIL_LEVELS; ++level) {
+    VkBufferImageCopy region{};
+    region.bufferOffset = detailLevelBegin(level);
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, 1};
+    const uint32_t edge = DETAIL_TEXELS >> level;
+    region.imageExtent = {edge, edge, edge};
+    copyInto(c.device->vk(), commands, tables.newNoise, tables.noise, region, false);
+    ++c.updateCopies;
+  }
+  c.bytesUploaded += tables.newNoise.size();
+  room = std::move(tables.newNoise);
 }
 
 }  // namespace
@@ -85,6 +102,7 @@ void retireSurface(WlkContext_T& c, SurfaceState& surface) {
   mesh.buffers[0] = std::move(surface.vertices);
   mesh.buffers[1] = std::move(surface.indices);
   mesh.buffers[2] = std::move(surface.phase);
+  mesh.images[0] = std::move(surface.shell.depth);
 }
 
 void uploadSurfaces(WlkContext_T& c, VkCommandBuffer commands) {
@@ -95,6 +113,11 @@ void uploadSurfaces(WlkContext_T& c, VkCommandBuffer commands) {
     copyTable(c, commands, tables.newSource, tables.source, entry.buffers[0]);
     copyTable(c, commands, tables.newCurves, tables.curves, entry.buffers[1]);
     copyTable(c, commands, tables.newShare, tables.share, entry.buffers[2]);
+  }
+  if (tables.newNoise) {
+    Retired& entry = c.retired.emplace_back(&c.memory);
+    entry.frame = c.frameIndex;
+    copyNoise(c, commands, entry.buffers[0]);
   }
   for (uint32_t i = 0; i < c.surfaces.slotCount(); ++i) {
     SurfaceState* surface = c.surfaces.at(i);
@@ -110,6 +133,9 @@ void uploadSurfaces(WlkContext_T& c, VkCommandBuffer commands) {
 }
 
 bool surfacesUploaded(const WlkContext_T& c) {
+  if (c.surfaceTables.newNoise) {
+    return false;
+  }
   for (uint32_t i = 0; i < c.surfaces.slotCount(); ++i) {
     const SurfaceState* surface = c.surfaces.at(i);
     if (surface != nullptr && surface->newIndices) {

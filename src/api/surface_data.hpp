@@ -14,7 +14,7 @@ void prepareSurfaceLights(WlkContext_T& context);
 void retireSurface(WlkContext_T& context, SurfaceState& surface);
 
 // Records the copies of meshes and tables that wait. Throws nothing if `context.retired` has room
-// for one more entry than there are surfaces.
+// for two more entries than there are surfaces.
 void uploadSurfaces(WlkContext_T& context, VkCommandBuffer commands);
 
 // Whether nothing waits to be copied.

@@ -36,6 +36,8 @@ const char* structName(uint32_t sType) {
       return "WlkPhaseQuery";
     case WLK_STRUCT_SURFACE_INFO:
       return "WlkSurfaceInfo";
+    case WLK_STRUCT_SURFACE_DETAIL:
+      return "WlkSurfaceDetail";
     case WLK_STRUCT_VOLUME_INFO:
       return "WlkVolumeInfo";
     case WLK_STRUCT_VOLUME_UPLOAD:

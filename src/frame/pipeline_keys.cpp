@@ -45,6 +45,16 @@ vk::PipelineKey surfaceFacesKey() {
   return {vk::Pass::SurfaceFaces, VK_FORMAT_UNDEFINED, {}};
 }
 
+vk::PipelineKey surfaceCellsKey() {
+  return {vk::Pass::SurfaceCells, VK_FORMAT_UNDEFINED, {}};
+}
+
+vk::PipelineKey surfaceShellKey(bool means) {
+  vk::PipelineKey key{vk::Pass::SurfaceShell, VK_FORMAT_UNDEFINED, {}};
+  key.constants[3] = means;
+  return key;
+}
+
 vk::PipelineKey surfaceMapKey(bool fromLevel) {
   vk::PipelineKey key{vk::Pass::SurfaceMap, VK_FORMAT_UNDEFINED, {}};
   key.constants[3] = fromLevel;
@@ -115,9 +125,11 @@ vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& v)
 static void prepareSurfaces(vk::Pipelines& pipelines, const ViewState& view,
                             const SliceQuality& quality, const SurfaceVariant& usual) {
   pipelines.prepare(surfaceFacesKey());
+  pipelines.prepare(surfaceCellsKey());
   for (const bool either : {false, true}) {
     pipelines.prepare(surfaceCoverKey(either));
     pipelines.prepare(surfaceMapKey(either));
+    pipelines.prepare(surfaceShellKey(either));
   }
   for (const bool distance : {false, view.volumeDistance}) {
     for (const bool light : {false, usual.light}) {

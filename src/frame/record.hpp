@@ -44,7 +44,7 @@ struct RecordVolume {
 
 // Surfaces of the context in plan order of index.
 struct RecordSurface {
-  const SurfaceState* state = nullptr;
+  SurfaceState* state = nullptr;
   SurfaceLight* light = nullptr;  // of the view's size
   SurfaceLight* up = nullptr;     // where there is light of sky and ground
 };

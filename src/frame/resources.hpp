@@ -66,6 +66,8 @@ struct SurfaceVariant {
 };
 vk::PipelineKey surfaceCoverKey(bool depth);
 vk::PipelineKey surfaceFacesKey();
+vk::PipelineKey surfaceCellsKey();
+vk::PipelineKey surfaceShellKey(bool means);
 vk::PipelineKey surfaceMapKey(bool fromLevel);
 vk::PipelineKey surfaceShadeKey(const SurfaceVariant& variant, const SliceQuality& quality);
 vk::PipelineKey distanceKey();

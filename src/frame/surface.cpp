@@ -104,13 +104,8 @@ void fillMap(const LightSquare& square, uint32_t size, SurfaceUniforms& out) {
              0.0f};
 }
 
-// Rows of pixels that a workgroup's strip has: many strips where there are few groups.
-void fillTriangles(const SurfaceState& s, const glm::dmat3& picture, SurfaceUniforms& out) {
-  const uint32_t rows = static_cast<uint32_t>(std::max(out.rect.w - out.rect.y, 1));
-  const uint32_t all = (s.triangles + interface_::SURFACE_LANES - 1) / interface_::SURFACE_LANES;
-  const uint32_t strips = std::clamp(ENOUGH_GROUPS / all, 1U, std::min(STRIPS, rows));
-  out.triangle = {s.triangles, (rows + strips - 1) / strips,
-                  glm::determinant(picture) < 0 ? 1U : 0U, 0};
+bool mirrors(const glm::dvec4& x, const glm::dvec4& y, const glm::dvec4& depth) {
+  return glm::determinant(glm::dmat3(glm::dvec3(x), glm::dvec3(y), glm::dvec3(depth))) < 0;
 }
 
 }  // namespace
@@ -125,6 +120,14 @@ glm::dmat4x3 SurfaceState::worldFromBox() const {
   }
   box[3] += glm::dmat3(worldFromMesh) * from;
   return box;
+}
+
+void fillTriangles(const SurfaceState& s, bool mirrored, SurfaceUniforms& out) {
+  const uint32_t rows = static_cast<uint32_t>(std::max(out.rect.w - out.rect.y, 1));
+  const uint32_t all = (s.triangles + interface_::SURFACE_LANES - 1) / interface_::SURFACE_LANES;
+  const uint32_t strips = std::clamp(ENOUGH_GROUPS / all, 1U, std::min(STRIPS, rows));
+  out.triangle = {s.triangles, (rows + strips - 1) / strips,
+                  mirrored ? 1U : 0U, 0};
 }
 
 SurfaceTables makeSurfaceTables(vk::Device& device) {
@@ -211,13 +214,18 @@ void fillSurfaceLight(const SurfaceState& s, const glm::dvec3& toLight, uint32_t
                -1e30f};
   const int edge = static_cast<int>(size);
   out.rect = {0, 0, edge, edge};
-  fillTriangles(s, glm::dmat3(glm::dvec3(x), glm::dvec3(y), glm::dvec3(depth)), out);
+  fillTriangles(s, mirrors(x, y, depth), out);
+  const LightFrame& frame = square.frame;
+  const double width = 2 * square.half;
+  fillDetail(s, square.middle - square.half * (frame.x + frame.y) + square.depth * frame.toLight,
+             {width * frame.x, width * frame.y, -frame.toLight}, width / size, out);
 }
 
 SurfaceLightKey surfaceLightKey(const SurfaceState& surface, const SurfaceUniforms& uniforms) {
   SurfaceLightKey key;
   const std::array rows{uniforms.pixelX, uniforms.pixelY, uniforms.depth, uniforms.steps,
-                        uniforms.map};
+                        uniforms.map,    uniforms.detail, uniforms.cellX, uniforms.cellY,
+                        uniforms.cellZ, uniforms.detailScale, uniforms.detailShift};
   static_assert(sizeof rows == sizeof key.rows);
   std::memcpy(key.rows.data(), rows.data(), sizeof rows);
   key.version = surface.version;
@@ -263,7 +271,7 @@ void fillSurfaceView(const SurfaceState& s, const PlannedVolume& planned, const 
   out.rect = rect(planned.rect);
   out.shade = rect(shade);
   out.axis = glm::vec4(glm::vec3(axis), 0.0f);
-  fillTriangles(s, glm::dmat3(glm::dvec3(x), glm::dvec3(y), glm::dvec3(w)), out);
+  fillTriangles(s, mirrors(x, y, w), out);
   const LightSquare square = lightSquare(s, toLight, size);
   // The origin of positions relative to the eye is the eye, the square's the mesh's own.
   const glm::dvec3 eye = view.eye - glm::dvec3(s.worldFromMesh[3]);
@@ -287,6 +295,15 @@ void fillSurfaceView(const SurfaceState& s, const PlannedVolume& planned, const 
                      static_cast<float>(last));
   };
   out.albedo = color(s.optics.albedo, s.optics.peakAlbedo);
+  // Homogeneous pixels of ways from the eye, and back.
+  const glm::dmat4& c = view.clipFromEye;
+  const glm::dvec4 across = rowOf(c, 3) * half;
+  const glm::dvec3 right((rowOf(c, 0) * half + across) * double(view.width) - across);
+  const glm::dvec3 down((rowOf(c, 1) * half + across) * double(view.height) - across);
+  const glm::dmat3 ways =
+      glm::inverse(glm::transpose(glm::dmat3(right, down, glm::dvec3(rowOf(c, 3)))));
+  const glm::dvec3 ahead = ways[2] + ways[0] * (0.5 * view.width) + ways[1] * (0.5 * view.height);
+  fillDetail(s, eye, glm::dmat3(1.0), glm::length(ways[1]) / glm::length(ahead), out);
   for (size_t set = 0; set < CANONICAL_SETS; ++set) {
     out.orders[set] = color(s.optics.orders[set], 0);
   }

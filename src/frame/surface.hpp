@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frame/plan.hpp"
+#include "frame/surface_detail.hpp"
 #include "surface/surface_optics.hpp"
 #include "vk/device.hpp"
 
@@ -22,7 +23,7 @@ using uint = uint32_t;
 
 // What a light map was made from: uniforms of the light's picture and the mesh's version.
 struct SurfaceLightKey {
-  std::array<float, 20> rows{};
+  std::array<float, 44> rows{};
   uint64_t version = 0;  // 0: nothing was made yet
   bool operator==(const SurfaceLightKey&) const = default;
 };
@@ -48,6 +49,8 @@ struct SurfaceState {
   explicit SurfaceState(std::pmr::memory_resource* memory) : placeOf(memory), lights(memory) {}
   double extinction = 0;  // 1/m
   SurfaceOptics optics;   // `curve` is on the GPU
+  SurfaceDetail detail;
+  SurfaceShell shell;     // where there is, or was, detail
   glm::dmat4x3 worldFromMesh{1.0};
   std::array<float, 3> low{};
   std::array<float, 3> high{};
@@ -75,9 +78,13 @@ struct SurfaceTables {
   vk::Image source;
   vk::Image curves;
   vk::Image share;       // of light of sky and ground
+  // Where there is, or was, detail: its noise, and room to make cells in.
+  vk::Image noise;
+  vk::Buffer cells;
   vk::Buffer newSource;  // until they are uploaded
   vk::Buffer newCurves;
   vk::Buffer newShare;
+  vk::Buffer newNoise;
 };
 SurfaceTables makeSurfaceTables(vk::Device& device);
 
@@ -110,6 +117,8 @@ struct SurfaceEye {
 void fillSurfaceView(const SurfaceState& surface, const PlannedVolume& planned,
                      const SurfaceEye& view, const glm::dvec3& toLight, uint32_t size,
                      const PixelRect& shade, interface_::SurfaceUniforms& out);
+// Triangles, and rows of pixels that a workgroup's strip has: many strips where there are few groups.
+void fillTriangles(const SurfaceState& surface, bool mirrored, interface_::SurfaceUniforms& out);
 // Workgroups of the passes over triangles: x, y and strips of pixels.
 std::array<uint32_t, 3> surfaceGroups(const interface_::SurfaceUniforms& uniforms);
 

@@ -51,6 +51,10 @@ class SurfaceRecorder {
         c_.firstUse(up_->columns);
         c_.firstUse(up_->faces);
       }
+      if (surface_.detail.depth > 0) {
+        c_.firstUse(surface_.shell.depth);
+        recordShell(light);
+      }
       recordLights(light);
       recordEye(eye, first);
     }
@@ -75,6 +79,34 @@ class SurfaceRecorder {
     if ((planned_.lit || planned_.ambient) && !changed) {
       stats.reason = c_.quality.noSkip ? WLK_REASON_NO_SKIP_FLAG : WLK_REASON_UNCHANGED;
     }
+  }
+
+  // How deep points lie under the surface, unless that is there already.
+  void recordShell(WlkPassStats& stats) {
+    SurfaceShell& shell = surface_.shell;
+    if (shell.version == surface_.version && !c_.quality.noSkip) {
+      return;
+    }
+    shell.version = surface_.version;
+    SurfaceUniforms uniforms;
+    fillShell(surface_, uniforms);
+    use(light_, uniforms, 3);
+    const auto [x, y, z] = shell.cells;
+    const VkDeviceSize bytes = VkDeviceSize{x} * y * z * sizeof(float);
+    const vk::Buffer& cells = c_.in.surfaceTables->cells;
+    clear(cells, bytes);
+    orderClears();
+    triangles(surfaceCellsKey(), uniforms, stats, index_);
+    c_.orderShaders();
+    c_.dispatch(c_.find(surfaceShellKey(false)), c_.pipelines.surfaceLayout(), nullptr, groups(x),
+                groups(z), stats, index_);
+    c_.orderShaders();
+    c_.dispatch(c_.find(surfaceShellKey(true)), c_.pipelines.surfaceLayout(), nullptr, groups(x),
+                groups(y), stats, index_, z);
+    VkBufferImageCopy region{};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.imageExtent = {x, y, z};
+    copyImage(cells, shell.depth, {&region, 1});
   }
 
   // Whether the map along a direction had changed; `which`: its uniforms and set.
@@ -130,13 +162,19 @@ class SurfaceRecorder {
       first += size * size;
       ++count;
     }
+    copyImage(resources().surfaceLevels, image, {regions.data(), count});
+  }
+
+  // What shaders have written.
+  void copyImage(const vk::Buffer& from, const vk::Image& image,
+                 std::span<const VkBufferImageCopy> regions) {
     const WlkVulkanImageState target{VK_IMAGE_LAYOUT_GENERAL, 0, VK_PIPELINE_STAGE_2_TRANSFER_BIT,
                                      VK_ACCESS_2_TRANSFER_WRITE_BIT};
     c_.barrier({COMPUTE, SHADER_ACCESS},
                {VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT});
     c_.image(image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, GENERAL_STATE, target);
-    c_.vk.CmdCopyBufferToImage(c_.commands, resources().surfaceLevels.handle(), image.handle(),
-                               VK_IMAGE_LAYOUT_GENERAL, count, regions.data());
+    c_.vk.CmdCopyBufferToImage(c_.commands, from.handle(), image.handle(), VK_IMAGE_LAYOUT_GENERAL,
+                               static_cast<uint32_t>(regions.size()), regions.data());
     c_.image(image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, target, GENERAL_STATE);
   }
 
@@ -186,11 +224,11 @@ class SurfaceRecorder {
   // Writes the constants of picture `which` (0: the light's, 1: the vertical's, 2: the view's) and
   // binds what the passes read and write; `light`: the map whose depths they are about.
   void use(const SurfaceLight& light, const SurfaceUniforms& uniforms, uint32_t which) {
-    BoundSet& set = c_.slot.surfaces[size_t{3} * rank_ + which];
+    BoundSet& set = c_.slot.surfaces[size_t{SURFACE_PICTURES} * rank_ + which];
     const ViewResources& r = resources();
     Bindings& b = c_.bindings;
     const VkDeviceSize frame = c_.in.slot * r.slotStride;
-    const VkDeviceSize at = frame + r.surfaceOffset + (3 * rank_ + which) * r.surfaceStride;
+    const VkDeviceSize at = frame + r.surfaceOffset + (SURFACE_PICTURES * rank_ + which) * r.surfaceStride;
     std::memcpy(static_cast<char*>(r.uniforms.data()) + at, &uniforms, sizeof uniforms);
     b.buffer(set, vk::BIND_SURFACE_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(),
              frame, sizeof(FrameUniforms));
@@ -229,6 +267,14 @@ class SurfaceRecorder {
             READ);
     b.image(set, vk::BIND_SURFACE_CURVES, c_.in.surfaceTables->curves.view(), c_.pipelines.linear(),
             READ);
+    const SurfaceTables& tables = *c_.in.surfaceTables;
+    const bool detailed = surface_.detail.depth > 0;
+    storage(vk::BIND_SURFACE_CELLS, detailed ? tables.cells : r.surfaceFaces);
+    b.image(set, vk::BIND_SURFACE_NOISE, detailed ? tables.noise.view() : tables.source.view(),
+            c_.pipelines.repeat(), READ);
+    b.image(set, vk::BIND_SURFACE_SHELL,
+            detailed ? surface_.shell.depth.view() : tables.source.view(), c_.pipelines.means(),
+            detailed ? VK_IMAGE_LAYOUT_GENERAL : READ);
     bindSkyLookup(b, c_.pipelines, r, set, {vk::BIND_SURFACE_SKY_TABLE, vk::BIND_SURFACE_SKY_PEAK},
                   c_.in);
     c_.vk.CmdBindDescriptorSets(c_.commands, VK_PIPELINE_BIND_POINT_COMPUTE,
@@ -238,7 +284,7 @@ class SurfaceRecorder {
   FrameCommands& c_;
   const ViewTargets& targets_;
   const PlannedVolume& planned_;
-  const SurfaceState& surface_;
+  SurfaceState& surface_;
   SurfaceLight& light_;
   SurfaceLight* up_;
   uint32_t rank_;
@@ -258,6 +304,9 @@ void findSurfacePipelines(const FrameCommands& commands, const ViewTargets& targ
     commands.find(surfaceFacesKey());
     commands.find(surfaceMapKey(false));
     commands.find(surfaceMapKey(true));
+    commands.find(surfaceCellsKey());
+    commands.find(surfaceShellKey(false));
+    commands.find(surfaceShellKey(true));
   }
   commands.find(surfaceCoverKey(static_cast<bool>(targets.depth)));
   commands.find(shadeKeyOf(commands, targets, planned));

@@ -21,10 +21,12 @@
 #include "shadow_map_comp_spv.h"
 #include "shadow_resolve_comp_spv.h"
 #include "sky_table_comp_spv.h"
+#include "surface_cells_comp_spv.h"
 #include "surface_cover_comp_spv.h"
 #include "surface_faces_comp_spv.h"
 #include "surface_map_comp_spv.h"
 #include "surface_shade_comp_spv.h"
+#include "surface_shell_comp_spv.h"
 #include "transport_cells_comp_spv.h"
 #include "transport_depth_comp_spv.h"
 #include "transport_extrapolate_comp_spv.h"
@@ -79,15 +81,14 @@ VkSampler makeSampler(const Device& device, VkFilter filter) {
   return sampler;
 }
 
-VkSampler makeMeanSampler(const Device& device) {
+VkSampler makeMeanSampler(const Device& device, VkSamplerAddressMode beyond) {
   VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
   info.magFilter = VK_FILTER_LINEAR;
   info.minFilter = VK_FILTER_LINEAR;
   info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
   info.maxLod = VK_LOD_CLAMP_NONE;
   info.borderColor = VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK;
-  info.addressModeU = info.addressModeV = info.addressModeW =
-      VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
+  info.addressModeU = info.addressModeV = info.addressModeW = beyond;
   VkSampler sampler = VK_NULL_HANDLE;
   check(device.vk().CreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
   return sampler;
@@ -207,7 +208,8 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
     for (const uint32_t i :
          {BIND_SURFACE_DEPTH, BIND_SURFACE_COLUMNS, BIND_SURFACE_FACES, BIND_SURFACE_SOURCE,
           BIND_SURFACE_CURVES, BIND_SURFACE_SKY_TABLE, BIND_SURFACE_SKY_PEAK,
-          BIND_SURFACE_UP_COLUMNS, BIND_SURFACE_UP_FACES, BIND_SURFACE_SHARE}) {
+          BIND_SURFACE_UP_COLUMNS, BIND_SURFACE_UP_FACES, BIND_SURFACE_SHARE,
+          BIND_SURFACE_NOISE, BIND_SURFACE_SHELL}) {
       surface[i].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     }
     surfaceSet_ = makeSetLayout(device_, surface);
@@ -219,7 +221,8 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
     compositeLayout_ = makeLayout(device_, compositeSet_);
     linear_ = makeSampler(device_, VK_FILTER_LINEAR);
     nearest_ = makeSampler(device_, VK_FILTER_NEAREST);
-    means_ = makeMeanSampler(device_);
+    means_ = makeMeanSampler(device_, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER);
+    repeat_ = makeMeanSampler(device_, VK_SAMPLER_ADDRESS_MODE_REPEAT);
   } catch (...) {
     destroy();
     throw;
@@ -239,6 +242,7 @@ void Pipelines::destroy() {
   vk.DestroySampler(device, linear_, nullptr);
   vk.DestroySampler(device, nearest_, nullptr);
   vk.DestroySampler(device, means_, nullptr);
+  vk.DestroySampler(device, repeat_, nullptr);
   vk.DestroyPipelineLayout(device, surfaceLayout_, nullptr);
   vk.DestroyDescriptorSetLayout(device, surfaceSet_, nullptr);
   vk.DestroyPipelineLayout(device, skyLayout_, nullptr);
@@ -330,6 +334,10 @@ Pipelines::Compute Pipelines::computeOf(Pass pass) const {
       return {surface_faces_comp_spv, surfaceLayout_};
     case Pass::SurfaceMap:
       return {surface_map_comp_spv, surfaceLayout_};
+    case Pass::SurfaceCells:
+      return {surface_cells_comp_spv, surfaceLayout_};
+    case Pass::SurfaceShell:
+      return {surface_shell_comp_spv, surfaceLayout_};
     case Pass::SurfaceShade:
       return {surface_shade_comp_spv, surfaceLayout_};
     case Pass::Aerial:

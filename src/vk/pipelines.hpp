@@ -44,6 +44,8 @@ enum class Pass : uint32_t {
   SurfaceCover,
   SurfaceFaces,
   SurfaceMap,
+  SurfaceCells,
+  SurfaceShell,
   SurfaceShade
 };
 
@@ -165,7 +167,10 @@ enum SurfaceBinding : uint32_t {
   BIND_SURFACE_UP_COLUMNS = 20,
   BIND_SURFACE_UP_FACES = 21,
   BIND_SURFACE_SHARE = 22,
-  SURFACE_BINDING_COUNT = 23
+  BIND_SURFACE_NOISE = 23,
+  BIND_SURFACE_CELLS = 24,
+  BIND_SURFACE_SHELL = 25,
+  SURFACE_BINDING_COUNT = 26
 };
 
 // Of any set.
@@ -205,6 +210,8 @@ class Pipelines {
   VkSampler nearest() const { return nearest_; }
   // Linear in place and level, 0 beyond the border.
   VkSampler means() const { return means_; }
+  // The same, and repeats.
+  VkSampler repeat() const { return repeat_; }
 
  private:
   void destroy();
@@ -241,6 +248,7 @@ class Pipelines {
   VkSampler linear_ = VK_NULL_HANDLE;
   VkSampler nearest_ = VK_NULL_HANDLE;
   VkSampler means_ = VK_NULL_HANDLE;
+  VkSampler repeat_ = VK_NULL_HANDLE;
 };
 
 }  // namespace welkin::vk

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// What a surface's detail takes from rays. Before: surface_mesh.glsl.
+
+// Where a ray runs through cloud, m: from front to leave, then up to back, `chord` in all.
+struct Inside {
+  float front;
+  float leave;
+  float back;
+  float chord;
+};
+
+// Distance of the point that has `depth` metres of the cloud in front of it: of two stretches and a
+// gap that is exact.
+float pointAt(Inside inside, float depth) {
+  float near = inside.front + depth;
+  return near <= inside.leave ? near : max(inside.back - (inside.chord - depth), inside.leave);
+}
+
+// Along a ray: place in the cells' box at distance 0 and per metre, and the ray's width, m.
+struct ShellRay {
+  vec3 origin;
+  vec3 slope;
+  float width;
+};
+
+struct ShellMarch {
+  float filled;  // metres that detail leaves
+  float lost;    // that it takes in front of what the eye sees
+};
+
+// Along a ray that keeps its way through the core at a stroke.
+const int SHELL_STEPS = 16;
+const int SHELL_STEPS_BACK = 6;
+const float SHELL_FINEST = 1.0f / 6.0f;  // steps in depths of the detail
+const float SHELL_COARSEST = 1.0f / 3.0f;
+const float SHELL_CORE = 0.75f;
+const float SHELL_BACK = 0.25f;
+// Optical depth behind which nothing counts.
+const float SHELL_HIDDEN = 8.0f;
+
+// Level of the noise that means over `metres` are read from.
+float shellLevel(float metres) {
+  return log2(max(metres * surface.detailScale.w, 1.0f));
+}
+
+// In depths of the detail.
+float shellDepthAt(vec3 place) {
+  return (textureLod(shellField, place, 0.0f).x - 1.0f) * surface.detailShift.w;
+}
+
+float shellDensityAt(float depth, vec3 place, float level) {
+  float noise =
+      textureLod(shellNoise, place * surface.detailScale.xyz + surface.detailShift.xyz, level).x;
+  return shellDensity(depth, noise, surface.detail.z);
+}
+
+ShellMarch shellMarch(Inside inside, ShellRay ray, float extinction) {
+  float shell = surface.detail.x;
+  float base = clamp(inside.chord / float(SHELL_STEPS), SHELL_FINEST * shell,
+                     SHELL_COARSEST * shell);
+  float level = shellLevel(max(base, ray.width));
+  ShellMarch march;
+  march.filled = 0.0f;
+  march.lost = 0.0f;
+  float at = 0.0f;
+  int steps = 0;
+  while (steps < SHELL_STEPS && at < inside.chord && extinction * march.filled < SHELL_HIDDEN) {
+    float width = min(base, inside.chord - at);
+    vec3 place = ray.origin + pointAt(inside, at + 0.5f * width) * ray.slope;
+    float depth = shellDepthAt(place);
+    // Cells do not tell how deep the core is; where it ends is behind most of it.
+    width = depth < 1.0f ? width : min(max(width, SHELL_CORE * shell), inside.chord - at);
+    float density = depth < 1.0f ? shellDensityAt(depth, place, level) : 1.0f;
+    march.lost += (1.0f - density) * width * exp(-extinction * march.filled);
+    march.filled += density * width;
+    at += width;
+    ++steps;
+  }
+  float rest = inside.chord - at;
+  march.filled += rest;
+  if (rest > 0.0f && extinction * march.filled < SHELL_HIDDEN) {
+    float width = min(SHELL_BACK * shell, rest / float(SHELL_STEPS_BACK));
+    level = shellLevel(max(width, ray.width));
+    for (int i = 0; i < SHELL_STEPS_BACK; ++i) {
+      float depth = inside.chord - (float(i) + 0.5f) * width;
+      vec3 place = ray.origin + pointAt(inside, depth) * ray.slope;
+      march.filled -= (1.0f - shellDensityAt(shellDepthAt(place), place, level)) * width;
+    }
+  }
+  march.filled = max(march.filled, 0.0f);
+  return march;
+}
+
+// Metres that detail takes from the `shade` metres of cloud between a point and the light, near the
+// point; further away what it takes in the mean. ray: from the point to the light.
+const int SHELL_STEPS_SHADE = 5;
+const float SHELL_SHADE = 2.0f;  // depths of the detail that are looked at
+float shellShadeLost(ShellRay ray, float shade) {
+  float shell = surface.detail.x;
+  float width = min(shade, SHELL_SHADE * shell) / float(SHELL_STEPS_SHADE);
+  float level = shellLevel(max(width, ray.width));
+  float lost = 0.0f;
+  for (int i = 0; i < SHELL_STEPS_SHADE; ++i) {
+    vec3 place = ray.origin + (float(i) + 0.5f) * width * ray.slope;
+    lost += 1.0f - shellDensityAt(shellDepthAt(place), place, level);
+  }
+  float beyond = clamp(shade / shell - SHELL_SHADE, 0.0f, 1.0f);
+  return min(lost * width + 0.5f * shell * beyond, shade);
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Noise that shapes the detail under the faces of surface clouds: round lumps, their fissures
+// between them. No Vulkan.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace welkin {
+
+// Repeats after DETAIL_LUMPS of its largest lumps.
+constexpr uint32_t DETAIL_TEXELS = 128;  // along an edge
+constexpr uint32_t DETAIL_LUMPS = 8;
+constexpr uint32_t DETAIL_LEVELS = 8;
+
+// Texels of all levels, x first, coarser ones last: 0 in the middle of lumps, 255 in the deepest
+// fissures. Distances to the nearest of points scattered over cells, at three sizes (Worley 1996).
+std::vector<uint8_t> detailNoise();
+
+// Where a level begins in them.
+size_t detailLevelBegin(uint32_t level);
+
+// The finest level between its texels, as linear filters have it, [0, 1]; 1 is the period.
+double detailNoiseAt(const std::vector<uint8_t>& noise, const std::array<double, 3>& place);
+
+}  // namespace welkin
