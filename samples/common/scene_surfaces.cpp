@@ -103,8 +103,8 @@ DetailDesc parseDetail(const JsonNode& node) {
 }
 
 void parseSurface(const JsonNode& node, Scene& scene) {
-  node.onlyKeys({"mesh", "medium", "extinction", "transform", "time", "as", "resolution",
-                 "detail"});
+  node.onlyKeys(
+      {"mesh", "medium", "extinction", "transform", "time", "as", "resolution", "detail"});
   SurfaceDesc surface;
   surface.medium = findMedium(node.at("medium"), scene);
   node.optional("extinction", surface.extinction, 0.0, 1e6);

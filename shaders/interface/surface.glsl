@@ -28,16 +28,16 @@ struct SurfaceUniforms {
   vec4 ground;
   vec4 albedo;     // RGB, of light scattered once
   vec4 orders[8];  // of each set of orders: part of its light that is not absorbed, RGB
-  // Detail under the faces: depth (m; 0: none), 1 / depth, softness, width of a pixel as an angle or
-  // of a texel in m.
+  // Detail under the faces: depth (m; 0: none), 1 / depth, softness; w: of a pixel its width as an
+  // angle, of a texel in m.
   vec4 detail;
-  // Place in the box of cells, [0, 1], of (position, 1) in a view, of (texel u, v, depth in m, 1) in
-  // a light map.
+  // Place in the box of cells, [0, 1], of (position, 1) in a view, of (u, v, depth in m, 1) in a
+  // light map.
   vec4 cellX;
   vec4 cellY;
   vec4 cellZ;
   vec4 detailScale;  // from that to periods of the noise; w: texels of the noise per m
-  vec4 detailShift;  // w: depths of the detail in a kernel of the cells
+  vec4 detailShift;  // w: depths of the detail in a cell
   uvec4 cells;       // along the axes
 };
 
@@ -61,4 +61,5 @@ const uint SURFACE_LANES = 64u;   // triangles of a workgroup
 const uint SURFACE_ROW = 32768u;  // workgroups along x
 const uint SURFACE_SMALL = 32u;   // pixels that one lane walks alone
 const uint SHELL_PIXELS = 4u;     // of the picture that fills the cells, along a cell's edge
+const float SHELL_OUTSIDE = 1.5f;  // depth in cells beyond the box, below the surface's 0
 const uint SHELL_FULL = 1024u;    // what one of them counts in a cell that is all cloud

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How much of each cell over a mesh's box is cloud, from a picture along the cells' columns: what a
-// crossing changes in its cell and in the one above, as in [surface_shell.comp] it is summed from
-// the far end.
+// crossing adds to its cell and to the one before, for surface_shell.comp to sum from the far end.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"

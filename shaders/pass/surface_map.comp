@@ -43,7 +43,7 @@ float eaten(Inside inside, vec2 place) {
       vec3(dot(surface.cellX, origin), dot(surface.cellY, origin), dot(surface.cellZ, origin));
   ray.slope = vec3(surface.cellX.z, surface.cellY.z, surface.cellZ.z);
   ray.width = surface.detail.w;
-  return shellMarch(inside, ray, 0.0f).filled;
+  return shellMarch(inside, ray, 0.0f, 0.0f).filled;
 }
 
 MapTexel fromTriangles(uvec2 texel, uint size) {

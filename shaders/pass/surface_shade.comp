@@ -150,8 +150,8 @@ SurfaceMap mapOf(vec4 row) {
   return map;
 }
 
-// Light scattered at least twice: J at the point, per unit irradiance. `lost`: of the metres between
-// it and the light.
+// Light scattered at least twice: J at the point, per unit irradiance. `lost`: what detail takes of
+// the metres between it and the light.
 vec3 scatteredAt(vec3 p, vec3 direction, float lost) {
   vec4 q = vec4(p, 1.0f);
   vec3 toEye = eyeInMap(surface.lightX, surface.lightY, surface.lightZ, surface.map, direction);
@@ -228,7 +228,8 @@ void main() {
     march.lost = 0.0f;
     if (surface.detail.x > 0.0f) {
       shell = shellRay(inside, direction);
-      march = shellMarch(inside, shell, surface.optics.y);
+      float most = chordDepth(SURFACE_SAMPLE, surface.optics.z * inside.chord);
+      march = shellMarch(inside, shell, surface.optics.y, most / max(surface.optics.z, 1.0e-20f));
     }
     float tau = surface.optics.y * march.filled;
     AirNodes nodes = airNodes(direction, inside.front, inside.back);
@@ -250,7 +251,8 @@ void main() {
     if (LIGHT_ENABLED && surface.detail.x > 0.0f) {
       vec3 toLight = frame.lights[0].direction.xyz;
       lost.x = shellShadeLost(shellRayTo(shell, near, toLight), shadeNear);
-      lost.y = shellShadeLost(shellRayTo(shell, distance_, toLight), shadeAt(distance_ * direction));
+      lost.y =
+          shellShadeLost(shellRayTo(shell, distance_, toLight), shadeAt(distance_ * direction));
       shadeNear -= lost.x;
     }
     for (int i = 1; i <= STRETCHES; ++i) {
@@ -273,7 +275,8 @@ void main() {
       }
       sum += air.radiance * (through - passed);
       if (DISTANCE) {
-        hidden += (through - passed) * vec2(pointAt(inside, march.lost + begin + 0.5f * length_), 1.0f);
+        float middle = pointAt(inside, march.lost + begin + 0.5f * length_);
+        hidden += (through - passed) * vec2(middle, 1.0f);
       }
       through = passed;
       begin = end;

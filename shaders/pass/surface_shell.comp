@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Depth under the surface of a mesh's cells, 0 where it is outside, 1 at a plane face: sums along
-// columns, then means over neighbours.
+// Depth under the surface of a mesh's cells, in cells and SHELL_OUTSIDE more, so that it is 0
+// beyond their box: sums along columns, then means over neighbours.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
@@ -12,7 +12,8 @@ layout(set = 0, binding = 24, std430) buffer Cells { int cells[]; };
 
 float filledAt(ivec3 cell, ivec3 count, int all_) {
   bool there = all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, count));
-  return there ? intBitsToFloat(cells[all_ + (cell.z * count.y + cell.y) * count.x + cell.x]) : 0.0f;
+  int index = (cell.z * count.y + cell.y) * count.x + cell.x;
+  return there ? intBitsToFloat(cells[all_ + index]) : 0.0f;
 }
 
 void main() {
@@ -43,6 +44,6 @@ void main() {
       }
     }
     int index = (at.z * count.y + at.y) * count.x + at.x;
-    cells[index] = floatBitsToInt(1.0f + shellDepth(sum / 64.0f));
+    cells[index] = floatBitsToInt(SHELL_OUTSIDE + shellDepth(sum / 64.0f));
   }
 }

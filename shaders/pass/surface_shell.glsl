@@ -25,15 +25,18 @@ struct ShellRay {
 
 struct ShellMarch {
   float filled;  // metres that detail leaves
-  float lost;    // that it takes in front of what the eye sees
+  float lost;    // that it takes in front of the point whose light stands for all
 };
 
-// Along a ray that keeps its way through the core at a stroke.
-const int SHELL_STEPS = 16;
+// From where a ray comes in, and before where it leaves for good if what is between is longer.
+#ifdef SHELL_NOISE_COMPUTED
+const int SHELL_STEPS = 512;
+#else
+const int SHELL_STEPS = 28;
+#endif
 const int SHELL_STEPS_BACK = 6;
 const float SHELL_FINEST = 1.0f / 6.0f;  // steps in depths of the detail
 const float SHELL_COARSEST = 1.0f / 3.0f;
-const float SHELL_CORE = 0.75f;
 const float SHELL_BACK = 0.25f;
 // Optical depth behind which nothing counts.
 const float SHELL_HIDDEN = 8.0f;
@@ -43,21 +46,34 @@ float shellLevel(float metres) {
   return log2(max(metres * surface.detailScale.w, 1.0f));
 }
 
+#ifdef SHELL_NOISE_COMPUTED
+#include "computed_noise.glsl"
+#endif
+
 // In depths of the detail.
 float shellDepthAt(vec3 place) {
-  return (textureLod(shellField, place, 0.0f).x - 1.0f) * surface.detailShift.w;
+  return (textureLod(shellField, place, 0.0f).x - SHELL_OUTSIDE) * surface.detailShift.w;
 }
 
 float shellDensityAt(float depth, vec3 place, float level) {
-  float noise =
-      textureLod(shellNoise, place * surface.detailScale.xyz + surface.detailShift.xyz, level).x;
+  vec3 at = place * surface.detailScale.xyz + surface.detailShift.xyz;
+#ifdef SHELL_NOISE_COMPUTED
+  float noise = computedNoise(at);
+#else
+  float noise = textureLod(shellNoise, at, level).x;
+#endif
   return shellDensity(depth, noise, surface.detail.z);
 }
 
-ShellMarch shellMarch(Inside inside, ShellRay ray, float extinction) {
+// `seen`: metres of core that end at that point where there are as many; in thinner cloud `lost` is
+// the mean over what is seen.
+ShellMarch shellMarch(Inside inside, ShellRay ray, float extinction, float seen) {
   float shell = surface.detail.x;
   float base = clamp(inside.chord / float(SHELL_STEPS), SHELL_FINEST * shell,
                      SHELL_COARSEST * shell);
+#ifdef SHELL_NOISE_COMPUTED
+  base = voxelOf(surface);
+#endif
   float level = shellLevel(max(base, ray.width));
   ShellMarch march;
   march.filled = 0.0f;
@@ -68,11 +84,14 @@ ShellMarch shellMarch(Inside inside, ShellRay ray, float extinction) {
     float width = min(base, inside.chord - at);
     vec3 place = ray.origin + pointAt(inside, at + 0.5f * width) * ray.slope;
     float depth = shellDepthAt(place);
-    // Cells do not tell how deep the core is; where it ends is behind most of it.
-    width = depth < 1.0f ? width : min(max(width, SHELL_CORE * shell), inside.chord - at);
     float density = depth < 1.0f ? shellDensityAt(depth, place, level) : 1.0f;
-    march.lost += (1.0f - density) * width * exp(-extinction * march.filled);
-    march.filled += density * width;
+    float filled = march.filled + density * width;
+    if (filled < seen) {
+      march.lost += (1.0f - density) * width * exp(-extinction * march.filled);
+    } else if (march.filled < seen) {
+      march.lost = at + (seen - march.filled) / density - seen;
+    }
+    march.filled = filled;
     at += width;
     ++steps;
   }

@@ -63,19 +63,20 @@ VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t vol
                           uint32_t surfaces, uint32_t lights, bool froxels) {
   const uint32_t more = froxels ? 1 : 0;
   const uint32_t spread = (lights - 1) * volumes;  // sets of further grids
-  const uint32_t sets = slots * ((3 + more) * volumes + spread + SURFACE_PICTURES * surfaces + 3 + more);
+  const uint32_t sets =
+      slots * ((3 + more) * volumes + spread + SURFACE_PICTURES * surfaces + 3 + more);
   const std::array sizes{
-      VkDescriptorPoolSize{
-          VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-          slots * ((6 + 2 * more) * volumes + 2 * spread + 2 * SURFACE_PICTURES * surfaces + 3 + more)},
-      VkDescriptorPoolSize{
-          VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-          slots * ((9 + 4 * more) * volumes + 3 * spread + 12 * SURFACE_PICTURES * surfaces + 4 + 3 * more)},
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                           slots * ((6 + 2 * more) * volumes + 2 * spread +
+                                    2 * SURFACE_PICTURES * surfaces + 3 + more)},
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                           slots * ((9 + 4 * more) * volumes + 3 * spread +
+                                    12 * SURFACE_PICTURES * surfaces + 4 + 3 * more)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
                            slots * ((3 + more) * volumes + spread + 5 + 2 * more)},
-      VkDescriptorPoolSize{
-          VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-          slots * ((24 + 14 * more) * volumes + 5 * spread + 12 * SURFACE_PICTURES * surfaces + 8 + 7 * more)}};
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                           slots * ((24 + 14 * more) * volumes + 5 * spread +
+                                    12 * SURFACE_PICTURES * surfaces + 8 + 7 * more)}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.maxSets = sets;
   info.poolSizeCount = static_cast<uint32_t>(sizes.size());
@@ -295,8 +296,8 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   r.transportLights = quality.transport && quality.lightFrames > 1 ? SPREAD_LIGHTS : 1;
   const uint32_t lights = volumeCount * r.transportLights;
   r.surfaceOffset = alignUp(r.transportOffset + lights * r.transportStride, both);
-  r.ambientOffset =
-      alignUp(r.surfaceOffset + VkDeviceSize{SURFACE_PICTURES} * features.surfaces * r.surfaceStride, both);
+  r.ambientOffset = alignUp(
+      r.surfaceOffset + VkDeviceSize{SURFACE_PICTURES} * features.surfaces * r.surfaceStride, both);
   r.slotStride = r.ambientOffset + alignUp(volumeCount * (r.ambientStride + r.volumeStride), both);
   r.uniforms =
       vk::Buffer(device, r.slotStride * framesInFlight,

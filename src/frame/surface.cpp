@@ -126,8 +126,7 @@ void fillTriangles(const SurfaceState& s, bool mirrored, SurfaceUniforms& out) {
   const uint32_t rows = static_cast<uint32_t>(std::max(out.rect.w - out.rect.y, 1));
   const uint32_t all = (s.triangles + interface_::SURFACE_LANES - 1) / interface_::SURFACE_LANES;
   const uint32_t strips = std::clamp(ENOUGH_GROUPS / all, 1U, std::min(STRIPS, rows));
-  out.triangle = {s.triangles, (rows + strips - 1) / strips,
-                  mirrored ? 1U : 0U, 0};
+  out.triangle = {s.triangles, (rows + strips - 1) / strips, mirrored ? 1U : 0U, 0};
 }
 
 SurfaceTables makeSurfaceTables(vk::Device& device) {
@@ -223,9 +222,9 @@ void fillSurfaceLight(const SurfaceState& s, const glm::dvec3& toLight, uint32_t
 
 SurfaceLightKey surfaceLightKey(const SurfaceState& surface, const SurfaceUniforms& uniforms) {
   SurfaceLightKey key;
-  const std::array rows{uniforms.pixelX, uniforms.pixelY, uniforms.depth, uniforms.steps,
-                        uniforms.map,    uniforms.detail, uniforms.cellX, uniforms.cellY,
-                        uniforms.cellZ, uniforms.detailScale, uniforms.detailShift};
+  const std::array rows{uniforms.pixelX, uniforms.pixelY,      uniforms.depth,      uniforms.steps,
+                        uniforms.map,    uniforms.detail,      uniforms.cellX,      uniforms.cellY,
+                        uniforms.cellZ,  uniforms.detailScale, uniforms.detailShift};
   static_assert(sizeof rows == sizeof key.rows);
   std::memcpy(key.rows.data(), rows.data(), sizeof rows);
   key.version = surface.version;

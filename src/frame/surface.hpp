@@ -50,7 +50,7 @@ struct SurfaceState {
   double extinction = 0;  // 1/m
   SurfaceOptics optics;   // `curve` is on the GPU
   SurfaceDetail detail;
-  SurfaceShell shell;     // where there is, or was, detail
+  SurfaceShell shell;  // where there is, or was, detail
   glm::dmat4x3 worldFromMesh{1.0};
   std::array<float, 3> low{};
   std::array<float, 3> high{};
@@ -77,7 +77,7 @@ struct SurfaceTables {
   double asymmetry = 0;
   vk::Image source;
   vk::Image curves;
-  vk::Image share;       // of light of sky and ground
+  vk::Image share;  // of light of sky and ground
   // Where there is, or was, detail: its noise, and room to make cells in.
   vk::Image noise;
   vk::Buffer cells;
@@ -117,7 +117,8 @@ struct SurfaceEye {
 void fillSurfaceView(const SurfaceState& surface, const PlannedVolume& planned,
                      const SurfaceEye& view, const glm::dvec3& toLight, uint32_t size,
                      const PixelRect& shade, interface_::SurfaceUniforms& out);
-// Triangles, and rows of pixels that a workgroup's strip has: many strips where there are few groups.
+// Triangles, and rows of pixels that a workgroup's strip has: many strips where there are few
+// groups.
 void fillTriangles(const SurfaceState& surface, bool mirrored, interface_::SurfaceUniforms& out);
 // Workgroups of the passes over triangles: x, y and strips of pixels.
 std::array<uint32_t, 3> surfaceGroups(const interface_::SurfaceUniforms& uniforms);

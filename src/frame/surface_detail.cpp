@@ -47,7 +47,7 @@ glm::dvec3 cellOf(const SurfaceState& s) {
 
 std::array<uint32_t, 3> shellCells(const SurfaceState& s, double depth) {
   const glm::dvec3 edges = edgesOf(s) * scalesOf(s);
-  double cell = std::max(depth / model::f64::SHELL_KERNEL, 1e-6);
+  double cell = std::max(depth / model::f64::SHELL_CELLS, 1e-6);
   std::array<uint32_t, 3> cells{};
   for (;; cell *= 1.1) {
     uint64_t all = 1;
@@ -56,7 +56,7 @@ std::array<uint32_t, 3> shellCells(const SurfaceState& s, double depth) {
       cells[static_cast<size_t>(i)] = std::max(static_cast<uint32_t>(count), LEAST_CELLS);
       all *= cells[static_cast<size_t>(i)];
     }
-    if (all <= SHELL_CELLS) {
+    if (all <= SHELL_ROOM) {
       return cells;
     }
   }
@@ -83,7 +83,7 @@ vk::Image makeShell(vk::Device& device, const std::array<uint32_t, 3>& cells,
   constexpr VkBufferUsageFlags WORK = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                                       VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
-  tables.cells = vk::Buffer(device, VkDeviceSize{2} * SHELL_CELLS * sizeof(float), WORK, false);
+  tables.cells = vk::Buffer(device, VkDeviceSize{2} * SHELL_ROOM * sizeof(float), WORK, false);
   tables.noise = std::move(image);
   tables.newNoise = std::move(staging);
   return shell;
@@ -115,11 +115,10 @@ void fillDetail(const SurfaceState& s, const glm::dvec3& origin, const glm::dmat
   out.cellZ = row(2);
   const glm::dvec3 metres = cell * scales;  // of a cell
   const glm::dvec3 shift = (low * scales - BORDER * metres - d.offset) / period;
-  const double kernel =
-      model::f64::SHELL_KERNEL * (metres.x + metres.y + metres.z) / 3 / d.depth;
+  const double cellDepth = (metres.x + metres.y + metres.z) / 3 / d.depth;
   out.detailScale = glm::vec4(glm::dvec4(counts * metres / period, DETAIL_TEXELS / period));
   // Whole periods fall out in double.
-  out.detailShift = glm::vec4(glm::dvec4(shift - glm::floor(shift), kernel));
+  out.detailShift = glm::vec4(glm::dvec4(shift - glm::floor(shift), cellDepth));
   out.cells = {s.shell.cells[0], s.shell.cells[1], s.shell.cells[2], 0};
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Detail under the faces of a cloud surface: its noise, and the cells that tell how deep points lie.
+// Detail under the faces of a cloud surface: its noise, and the cells that tell how deep points
+// lie.
 #pragma once
 
 #include <array>
@@ -30,7 +31,7 @@ struct SurfaceShell {
   uint64_t version = 0;  // of the vertices that it was made from; 0: of none
 };
 
-constexpr uint32_t SHELL_CELLS = 1 << 19;  // at most
+constexpr uint32_t SHELL_ROOM = 1 << 19;  // at most
 
 // Cells for a depth of detail, m in the world.
 std::array<uint32_t, 3> shellCells(const SurfaceState& surface, double depth);

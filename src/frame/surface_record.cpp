@@ -228,7 +228,8 @@ class SurfaceRecorder {
     const ViewResources& r = resources();
     Bindings& b = c_.bindings;
     const VkDeviceSize frame = c_.in.slot * r.slotStride;
-    const VkDeviceSize at = frame + r.surfaceOffset + (SURFACE_PICTURES * rank_ + which) * r.surfaceStride;
+    const VkDeviceSize at =
+        frame + r.surfaceOffset + (SURFACE_PICTURES * rank_ + which) * r.surfaceStride;
     std::memcpy(static_cast<char*>(r.uniforms.data()) + at, &uniforms, sizeof uniforms);
     b.buffer(set, vk::BIND_SURFACE_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(),
              frame, sizeof(FrameUniforms));

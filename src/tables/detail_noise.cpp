@@ -71,10 +71,9 @@ std::vector<float> lumps() {
   for (uint32_t z = 0; z < EDGE; ++z) {
     for (uint32_t y = 0; y < EDGE; ++y) {
       for (uint32_t x = 0; x < EDGE; ++x) {
-        distance[texelAt(x, y, z, EDGE)] =
-            nearest(points, {(static_cast<float>(x) + 0.5F) * SCALE,
-                             (static_cast<float>(y) + 0.5F) * SCALE,
-                             (static_cast<float>(z) + 0.5F) * SCALE});
+        distance[texelAt(x, y, z, EDGE)] = nearest(
+            points, {(static_cast<float>(x) + 0.5F) * SCALE, (static_cast<float>(y) + 0.5F) * SCALE,
+                     (static_cast<float>(z) + 0.5F) * SCALE});
       }
     }
   }
@@ -113,8 +112,7 @@ void rank(std::vector<float>& values) {
   for (float& x : values) {
     const auto bin = static_cast<size_t>(place(x));
     const float part = place(x) - static_cast<float>(bin);
-    x = (static_cast<float>(below[bin]) +
-         part * static_cast<float>(below[bin + 1] - below[bin])) /
+    x = (static_cast<float>(below[bin]) + part * static_cast<float>(below[bin + 1] - below[bin])) /
         static_cast<float>(TEXELS);
   }
 }
@@ -136,7 +134,7 @@ std::vector<uint8_t> detailNoise() {
   noise.reserve(detailLevelBegin(DETAIL_LEVELS));
   for (uint32_t edge = EDGE;; edge /= 2) {
     for (const float x : level) {
-      noise.push_back(static_cast<uint8_t>(x * 255 + 0.5F));
+      noise.push_back(static_cast<uint8_t>(std::lround(x * 255)));
     }
     if (edge == 1) {
       return noise;

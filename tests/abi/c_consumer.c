@@ -236,6 +236,7 @@ static void objects(WlkContext context) {
   WlkMedium medium = {0};
   WlkVolume volume = {0};
   WlkSurfaceInfo surfaceInfo;
+  WlkSurfaceDetail surfaceDetail;
   WlkSurface surface = {0};
   static const float places[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
 
@@ -264,6 +265,8 @@ static void objects(WlkContext context) {
   REQUIRE(surfaceInfo.vertexStride == 3 * sizeof(float));
   EXPECT(WLK_ERROR_INVALID_ARGUMENT, wlkCreateSurface(context, &surfaceInfo, &surface));
   EXPECT(WLK_ERROR_INVALID_HANDLE, wlkSetSurfaceTransform(context, surface, moved));
+  INIT(WLK_STRUCT_SURFACE_DETAIL, surfaceDetail);
+  EXPECT(WLK_ERROR_INVALID_HANDLE, wlkSetSurfaceDetail(context, surface, &surfaceDetail));
   EXPECT(WLK_ERROR_INVALID_HANDLE, wlkSetSurfacePositions(context, surface, places, 4, 12));
   EXPECT(WLK_ERROR_INVALID_HANDLE, wlkDestroySurface(context, surface));
   EXPECT(WLK_SUCCESS, wlkDestroyMedium(context, medium));

@@ -105,7 +105,7 @@ def layout(text, include=INCLUDE):
     for name, fields in structs(text):
         lines.append(f'printf("\\nSIZE({name}, %zu);\\n", sizeof({name}));')
         if fields[:3] == ["sType", "structSize", "next"]:
-            lines.append(f'printf("HEAD({name});\\n");')
+            lines[-1] = f'printf("\\nSIZE({name}, %zu); HEAD({name});\\n", sizeof({name}));'
             fields = fields[3:]
         for field in fields:
             lines.append(f'printf("AT({name}, {field}, %zu);\\n", offsetof({name}, {field}));')

@@ -13,8 +13,7 @@
 #define HEAD(type) _Static_assert(STARTS(type) && offsetof(type, next) == 8, "head of " #type)
 #define VALUE(name, value) _Static_assert((long long)(name) == (value), #name)
 
-SIZE(WlkErrorInfo, 352);
-HEAD(WlkErrorInfo);
+SIZE(WlkErrorInfo, 352); HEAD(WlkErrorInfo);
 AT(WlkErrorInfo, result, 16);
 AT(WlkErrorInfo, structType, 20);
 AT(WlkErrorInfo, vkResult, 24);
@@ -39,8 +38,7 @@ AT(WlkAllocator, user, 0);
 AT(WlkAllocator, allocate, 8);
 AT(WlkAllocator, release, 16);
 
-SIZE(WlkContextInfo, 72);
-HEAD(WlkContextInfo);
+SIZE(WlkContextInfo, 72); HEAD(WlkContextInfo);
 AT(WlkContextInfo, apiVersion, 16);
 AT(WlkContextInfo, maxFramesInFlight, 20);
 AT(WlkContextInfo, allocator, 24);
@@ -48,13 +46,11 @@ AT(WlkContextInfo, log, 48);
 AT(WlkContextInfo, logUser, 56);
 AT(WlkContextInfo, deviceMemoryLimit, 64);
 
-SIZE(WlkHeadlessInfo, 32);
-HEAD(WlkHeadlessInfo);
+SIZE(WlkHeadlessInfo, 32); HEAD(WlkHeadlessInfo);
 AT(WlkHeadlessInfo, flags, 16);
 AT(WlkHeadlessInfo, deviceName, 24);
 
-SIZE(WlkCapabilities, 296);
-HEAD(WlkCapabilities);
+SIZE(WlkCapabilities, 296); HEAD(WlkCapabilities);
 AT(WlkCapabilities, mode, 16);
 AT(WlkCapabilities, vulkanVersion, 20);
 AT(WlkCapabilities, maxLights, 24);
@@ -63,28 +59,24 @@ AT(WlkCapabilities, blendSupported, 32);
 AT(WlkCapabilities, reserved0, 36);
 AT(WlkCapabilities, deviceName, 40);
 
-SIZE(WlkPlanet, 72);
-HEAD(WlkPlanet);
+SIZE(WlkPlanet, 72); HEAD(WlkPlanet);
 AT(WlkPlanet, seaLevelPoint, 16);
 AT(WlkPlanet, up, 40);
 AT(WlkPlanet, radius, 52);
 AT(WlkPlanet, groundAlbedo, 56);
 AT(WlkPlanet, reserved0, 68);
 
-SIZE(WlkSky, 32);
-HEAD(WlkSky);
+SIZE(WlkSky, 32); HEAD(WlkSky);
 AT(WlkSky, rayleighScattering, 16);
 AT(WlkSky, scaleHeight, 28);
 
-SIZE(WlkAbsorber, 40);
-HEAD(WlkAbsorber);
+SIZE(WlkAbsorber, 40); HEAD(WlkAbsorber);
 AT(WlkAbsorber, extinction, 16);
 AT(WlkAbsorber, peakAltitude, 28);
 AT(WlkAbsorber, halfWidth, 32);
 AT(WlkAbsorber, reserved0, 36);
 
-SIZE(WlkLight, 72);
-HEAD(WlkLight);
+SIZE(WlkLight, 72); HEAD(WlkLight);
 AT(WlkLight, direction, 16);
 AT(WlkLight, angularDiameter, 28);
 AT(WlkLight, irradiance, 32);
@@ -92,8 +84,7 @@ AT(WlkLight, reserved0, 44);
 AT(WlkLight, limbDarkening, 48);
 AT(WlkLight, litFrom, 60);
 
-SIZE(WlkAmbient, 160);
-HEAD(WlkAmbient);
+SIZE(WlkAmbient, 160); HEAD(WlkAmbient);
 AT(WlkAmbient, mode, 16);
 AT(WlkAmbient, reserved0, 20);
 AT(WlkAmbient, sky, 24);
@@ -101,8 +92,7 @@ AT(WlkAmbient, ground, 36);
 AT(WlkAmbient, harmonics, 48);
 AT(WlkAmbient, reserved1, 156);
 
-SIZE(WlkFog, 56);
-HEAD(WlkFog);
+SIZE(WlkFog, 56); HEAD(WlkFog);
 AT(WlkFog, dropletDiameter_um, 16);
 AT(WlkFog, extinction, 20);
 AT(WlkFog, baseAltitude, 24);
@@ -111,8 +101,7 @@ AT(WlkFog, singleScatteringAlbedo, 32);
 AT(WlkFog, phaseModel, 44);
 AT(WlkFog, medium, 48);
 
-SIZE(WlkMediumInfo, 80);
-HEAD(WlkMediumInfo);
+SIZE(WlkMediumInfo, 80); HEAD(WlkMediumInfo);
 AT(WlkMediumInfo, particle, 16);
 AT(WlkMediumInfo, phaseModel, 20);
 AT(WlkMediumInfo, diameter_um, 24);
@@ -126,8 +115,7 @@ AT(WlkMediumInfo, userPhase, 64);
 AT(WlkMediumInfo, userCount, 72);
 AT(WlkMediumInfo, reserved0, 76);
 
-SIZE(WlkMediumOptics, 96);
-HEAD(WlkMediumOptics);
+SIZE(WlkMediumOptics, 96); HEAD(WlkMediumOptics);
 AT(WlkMediumOptics, extinctionEfficiency, 16);
 AT(WlkMediumOptics, effectiveRadius_um, 28);
 AT(WlkMediumOptics, extinctionCrossSection, 32);
@@ -141,8 +129,7 @@ AT(WlkVolumeField, medium, 0);
 AT(WlkVolumeField, extinctionScale, 8);
 AT(WlkVolumeField, reserved0, 12);
 
-SIZE(WlkVolumeInfo, 144);
-HEAD(WlkVolumeInfo);
+SIZE(WlkVolumeInfo, 144); HEAD(WlkVolumeInfo);
 AT(WlkVolumeInfo, size, 16);
 AT(WlkVolumeInfo, fieldCount, 28);
 AT(WlkVolumeInfo, fieldStride, 32);
@@ -150,8 +137,7 @@ AT(WlkVolumeInfo, reserved0, 36);
 AT(WlkVolumeInfo, fields, 40);
 AT(WlkVolumeInfo, worldFromVolume, 48);
 
-SIZE(WlkVolumeUpload, 80);
-HEAD(WlkVolumeUpload);
+SIZE(WlkVolumeUpload, 80); HEAD(WlkVolumeUpload);
 AT(WlkVolumeUpload, field, 16);
 AT(WlkVolumeUpload, format, 20);
 AT(WlkVolumeUpload, offset, 24);
@@ -161,8 +147,7 @@ AT(WlkVolumeUpload, slicePitch, 56);
 AT(WlkVolumeUpload, data, 64);
 AT(WlkVolumeUpload, dataSize, 72);
 
-SIZE(WlkVolumeBricks, 64);
-HEAD(WlkVolumeBricks);
+SIZE(WlkVolumeBricks, 64); HEAD(WlkVolumeBricks);
 AT(WlkVolumeBricks, field, 16);
 AT(WlkVolumeBricks, format, 20);
 AT(WlkVolumeBricks, count, 24);
@@ -172,8 +157,7 @@ AT(WlkVolumeBricks, data, 40);
 AT(WlkVolumeBricks, brickPitch, 48);
 AT(WlkVolumeBricks, dataSize, 56);
 
-SIZE(WlkVolumeState, 72);
-HEAD(WlkVolumeState);
+SIZE(WlkVolumeState, 72); HEAD(WlkVolumeState);
 AT(WlkVolumeState, bricks, 16);
 AT(WlkVolumeState, leaps, 28);
 AT(WlkVolumeState, occupiedBricks, 32);
@@ -182,8 +166,7 @@ AT(WlkVolumeState, deviceMemory, 48);
 AT(WlkVolumeState, hostMemory, 56);
 AT(WlkVolumeState, pendingMemory, 64);
 
-SIZE(WlkSurfaceInfo, 152);
-HEAD(WlkSurfaceInfo);
+SIZE(WlkSurfaceInfo, 152); HEAD(WlkSurfaceInfo);
 AT(WlkSurfaceInfo, medium, 16);
 AT(WlkSurfaceInfo, extinction, 24);
 AT(WlkSurfaceInfo, vertexCount, 28);
@@ -193,8 +176,13 @@ AT(WlkSurfaceInfo, positions, 40);
 AT(WlkSurfaceInfo, indices, 48);
 AT(WlkSurfaceInfo, worldFromSurface, 56);
 
-SIZE(WlkViewInfo, 48);
-HEAD(WlkViewInfo);
+SIZE(WlkSurfaceDetail, 40); HEAD(WlkSurfaceDetail);
+AT(WlkSurfaceDetail, depth, 16);
+AT(WlkSurfaceDetail, size, 20);
+AT(WlkSurfaceDetail, softness, 24);
+AT(WlkSurfaceDetail, offset, 28);
+
+SIZE(WlkViewInfo, 48); HEAD(WlkViewInfo);
 AT(WlkViewInfo, width, 16);
 AT(WlkViewInfo, height, 20);
 AT(WlkViewInfo, composite, 24);
@@ -203,15 +191,13 @@ AT(WlkViewInfo, layers, 32);
 AT(WlkViewInfo, color, 40);
 AT(WlkViewInfo, reserved0, 44);
 
-SIZE(WlkCamera, 144);
-HEAD(WlkCamera);
+SIZE(WlkCamera, 144); HEAD(WlkCamera);
 AT(WlkCamera, position, 16);
 AT(WlkCamera, viewFromWorld, 40);
 AT(WlkCamera, preExposure, 76);
 AT(WlkCamera, clipFromView, 80);
 
-SIZE(WlkQuality, 80);
-HEAD(WlkQuality);
+SIZE(WlkQuality, 80); HEAD(WlkQuality);
 AT(WlkQuality, level, 16);
 AT(WlkQuality, sliceCount, 20);
 AT(WlkQuality, batchSize, 24);
@@ -228,8 +214,7 @@ AT(WlkQuality, volumeResolution, 68);
 AT(WlkQuality, lightFrames, 72);
 AT(WlkQuality, reserved0, 76);
 
-SIZE(WlkQualityState, 88);
-HEAD(WlkQualityState);
+SIZE(WlkQualityState, 88); HEAD(WlkQualityState);
 AT(WlkQualityState, control, 16);
 AT(WlkQualityState, reason, 20);
 AT(WlkQualityState, rung, 24);
@@ -247,13 +232,11 @@ AT(WlkQualityState, reserved1, 68);
 AT(WlkQualityState, sinceFrame, 72);
 AT(WlkQualityState, switches, 80);
 
-SIZE(WlkFrameInfo, 32);
-HEAD(WlkFrameInfo);
+SIZE(WlkFrameInfo, 32); HEAD(WlkFrameInfo);
 AT(WlkFrameInfo, frameIndex, 16);
 AT(WlkFrameInfo, completedFrameIndex, 24);
 
-SIZE(WlkLightShadow, 312);
-HEAD(WlkLightShadow);
+SIZE(WlkLightShadow, 312); HEAD(WlkLightShadow);
 AT(WlkLightShadow, cascadeCount, 16);
 AT(WlkLightShadow, light, 20);
 AT(WlkLightShadow, origin, 24);
@@ -261,8 +244,7 @@ AT(WlkLightShadow, clipFromWorld, 48);
 AT(WlkLightShadow, bias, 304);
 AT(WlkLightShadow, reserved0, 308);
 
-SIZE(WlkHeadlessTargets, 56);
-HEAD(WlkHeadlessTargets);
+SIZE(WlkHeadlessTargets, 56); HEAD(WlkHeadlessTargets);
 AT(WlkHeadlessTargets, color, 16);
 AT(WlkHeadlessTargets, depth, 24);
 AT(WlkHeadlessTargets, lightShadow, 32);
@@ -270,8 +252,7 @@ AT(WlkHeadlessTargets, shadowDepth, 40);
 AT(WlkHeadlessTargets, shadowWidth, 48);
 AT(WlkHeadlessTargets, shadowHeight, 52);
 
-SIZE(WlkImageData, 40);
-HEAD(WlkImageData);
+SIZE(WlkImageData, 40); HEAD(WlkImageData);
 AT(WlkImageData, image, 16);
 AT(WlkImageData, reserved0, 20);
 AT(WlkImageData, data, 24);
@@ -287,8 +268,7 @@ AT(WlkPassStats, volume, 80);
 AT(WlkPassStats, invocations, 88);
 AT(WlkPassStats, gpuTime_ns, 96);
 
-SIZE(WlkFrameStats, 72);
-HEAD(WlkFrameStats);
+SIZE(WlkFrameStats, 72); HEAD(WlkFrameStats);
 AT(WlkFrameStats, frameIndex, 16);
 AT(WlkFrameStats, dispatches, 24);
 AT(WlkFrameStats, draws, 28);
@@ -299,8 +279,7 @@ AT(WlkFrameStats, deviceMemory, 48);
 AT(WlkFrameStats, hostMemory, 56);
 AT(WlkFrameStats, nonFinitePixels, 64);
 
-SIZE(WlkErrorEstimate, 56);
-HEAD(WlkErrorEstimate);
+SIZE(WlkErrorEstimate, 56); HEAD(WlkErrorEstimate);
 AT(WlkErrorEstimate, relativeError, 16);
 AT(WlkErrorEstimate, dominant, 20);
 AT(WlkErrorEstimate, part, 24);
@@ -310,22 +289,19 @@ AT(WlkRay, origin, 0);
 AT(WlkRay, direction, 24);
 AT(WlkRay, length, 48);
 
-SIZE(WlkRayBatch, 40);
-HEAD(WlkRayBatch);
+SIZE(WlkRayBatch, 40); HEAD(WlkRayBatch);
 AT(WlkRayBatch, count, 16);
 AT(WlkRayBatch, stride, 20);
 AT(WlkRayBatch, rays, 24);
 AT(WlkRayBatch, maxOrder, 32);
 AT(WlkRayBatch, reserved0, 36);
 
-SIZE(WlkSkyMapQuery, 48);
-HEAD(WlkSkyMapQuery);
+SIZE(WlkSkyMapQuery, 48); HEAD(WlkSkyMapQuery);
 AT(WlkSkyMapQuery, position, 16);
 AT(WlkSkyMapQuery, size, 40);
 AT(WlkSkyMapQuery, maxOrder, 44);
 
-SIZE(WlkPhaseQuery, 56);
-HEAD(WlkPhaseQuery);
+SIZE(WlkPhaseQuery, 56); HEAD(WlkPhaseQuery);
 AT(WlkPhaseQuery, medium, 16);
 AT(WlkPhaseQuery, orderKind, 24);
 AT(WlkPhaseQuery, order, 28);
@@ -334,8 +310,7 @@ AT(WlkPhaseQuery, count, 40);
 AT(WlkPhaseQuery, reserved0, 44);
 AT(WlkPhaseQuery, scatteringAngle, 48);
 
-SIZE(WlkVulkanRequirements, 64);
-HEAD(WlkVulkanRequirements);
+SIZE(WlkVulkanRequirements, 64); HEAD(WlkVulkanRequirements);
 AT(WlkVulkanRequirements, apiVersion, 16);
 AT(WlkVulkanRequirements, queueFlags, 20);
 AT(WlkVulkanRequirements, synchronization2, 24);
@@ -349,8 +324,7 @@ AT(WlkVulkanRequirements, blendTargetUsage, 52);
 AT(WlkVulkanRequirements, volumeUsage, 56);
 AT(WlkVulkanRequirements, fragmentStoresAndAtomics, 60);
 
-SIZE(WlkVulkanDeviceInfo, 72);
-HEAD(WlkVulkanDeviceInfo);
+SIZE(WlkVulkanDeviceInfo, 72); HEAD(WlkVulkanDeviceInfo);
 AT(WlkVulkanDeviceInfo, getInstanceProcAddr, 16);
 AT(WlkVulkanDeviceInfo, instance, 24);
 AT(WlkVulkanDeviceInfo, physicalDevice, 32);
@@ -367,8 +341,7 @@ AT(WlkVulkanImageState, reserved0, 4);
 AT(WlkVulkanImageState, stages, 8);
 AT(WlkVulkanImageState, access, 16);
 
-SIZE(WlkVulkanImage, 88);
-HEAD(WlkVulkanImage);
+SIZE(WlkVulkanImage, 88); HEAD(WlkVulkanImage);
 AT(WlkVulkanImage, image, 16);
 AT(WlkVulkanImage, format, 24);
 AT(WlkVulkanImage, width, 28);
@@ -377,8 +350,7 @@ AT(WlkVulkanImage, depth, 36);
 AT(WlkVulkanImage, before, 40);
 AT(WlkVulkanImage, after, 64);
 
-SIZE(WlkVulkanViewTargets, 96);
-HEAD(WlkVulkanViewTargets);
+SIZE(WlkVulkanViewTargets, 96); HEAD(WlkVulkanViewTargets);
 AT(WlkVulkanViewTargets, depth, 16);
 AT(WlkVulkanViewTargets, colorInput, 24);
 AT(WlkVulkanViewTargets, color, 32);
@@ -390,8 +362,7 @@ AT(WlkVulkanViewTargets, aerialRadiance, 72);
 AT(WlkVulkanViewTargets, aerialTransmittance, 80);
 AT(WlkVulkanViewTargets, volumeDistance, 88);
 
-SIZE(WlkAerialPerspective, 40);
-HEAD(WlkAerialPerspective);
+SIZE(WlkAerialPerspective, 40); HEAD(WlkAerialPerspective);
 AT(WlkAerialPerspective, width, 16);
 AT(WlkAerialPerspective, height, 20);
 AT(WlkAerialPerspective, depth, 24);
@@ -402,8 +373,7 @@ AT(WlkAerialPerspective, reserved0, 36);
 SIZE(WlkShadowMap, 8);
 AT(WlkShadowMap, id, 0);
 
-SIZE(WlkShadowMapInfo, 80);
-HEAD(WlkShadowMapInfo);
+SIZE(WlkShadowMapInfo, 80); HEAD(WlkShadowMapInfo);
 AT(WlkShadowMapInfo, width, 16);
 AT(WlkShadowMapInfo, height, 20);
 AT(WlkShadowMapInfo, content, 24);
@@ -413,8 +383,7 @@ AT(WlkShadowMapInfo, extent, 56);
 AT(WlkShadowMapInfo, maxSamples, 72);
 AT(WlkShadowMapInfo, reserved0, 76);
 
-SIZE(WlkShadowMapState, 160);
-HEAD(WlkShadowMapState);
+SIZE(WlkShadowMapState, 160); HEAD(WlkShadowMapState);
 AT(WlkShadowMapState, frameIndex, 16);
 AT(WlkShadowMapState, mapFromWorld, 24);
 AT(WlkShadowMapState, volumes, 120);
@@ -441,24 +410,24 @@ VALUE(WLK_STRUCT_LIGHT, 12); VALUE(WLK_STRUCT_FOG, 13); VALUE(WLK_STRUCT_ABSORBE
 VALUE(WLK_STRUCT_AMBIENT, 16); VALUE(WLK_STRUCT_MEDIUM_INFO, 20); VALUE(WLK_STRUCT_VOLUME_INFO, 21);
 VALUE(WLK_STRUCT_VOLUME_UPLOAD, 22); VALUE(WLK_STRUCT_MEDIUM_OPTICS, 23);
 VALUE(WLK_STRUCT_VOLUME_BRICKS, 24); VALUE(WLK_STRUCT_VOLUME_STATE, 25);
-VALUE(WLK_STRUCT_SURFACE_INFO, 26); VALUE(WLK_STRUCT_VIEW_INFO, 30); VALUE(WLK_STRUCT_CAMERA, 31);
-VALUE(WLK_STRUCT_QUALITY, 32); VALUE(WLK_STRUCT_QUALITY_STATE, 33);
-VALUE(WLK_STRUCT_FRAME_INFO, 40); VALUE(WLK_STRUCT_HEADLESS_TARGETS, 41);
-VALUE(WLK_STRUCT_IMAGE_DATA, 42); VALUE(WLK_STRUCT_FRAME_STATS, 43);
-VALUE(WLK_STRUCT_ERROR_ESTIMATE, 44); VALUE(WLK_STRUCT_LIGHT_SHADOW, 47);
-VALUE(WLK_STRUCT_RAY_BATCH, 50); VALUE(WLK_STRUCT_PHASE_QUERY, 51);
-VALUE(WLK_STRUCT_SKY_MAP_QUERY, 52); VALUE(WLK_STRUCT_VULKAN_DEVICE_INFO, 1000);
-VALUE(WLK_STRUCT_VULKAN_REQUIREMENTS, 1001); VALUE(WLK_STRUCT_VULKAN_IMAGE, 1002);
-VALUE(WLK_STRUCT_VULKAN_VIEW_TARGETS, 1003); VALUE(WLK_STRUCT_SHADOW_MAP_INFO, 1004);
-VALUE(WLK_STRUCT_SHADOW_MAP_STATE, 1005); VALUE(WLK_STRUCT_AERIAL_PERSPECTIVE, 1006);
-VALUE(WLK_LOG_ERROR, 1); VALUE(WLK_LOG_WARNING, 2); VALUE(WLK_LOG_INFO, 3);
-VALUE(WLK_HEADLESS_VALIDATION, 1); VALUE(WLK_MODE_CPU, 0); VALUE(WLK_MODE_HEADLESS, 1);
-VALUE(WLK_MODE_ENGINE_DEVICE, 2); VALUE(WLK_AMBIENT_OFF, 0); VALUE(WLK_AMBIENT_AUTOMATIC, 1);
-VALUE(WLK_AMBIENT_GIVEN, 2); VALUE(WLK_PHASE_DEFAULT, 0); VALUE(WLK_PHASE_ANALYTIC, 1);
-VALUE(WLK_PHASE_TABLE, 2); VALUE(WLK_PARTICLE_CLOUD, 0); VALUE(WLK_PARTICLE_FOG, 1);
-VALUE(WLK_PARTICLE_HAZE, 2); VALUE(WLK_PARTICLE_RAIN, 3); VALUE(WLK_PARTICLE_ICE_COLUMN, 4);
-VALUE(WLK_PARTICLE_ICE_PLATE, 5); VALUE(WLK_PARTICLE_SNOW, 6); VALUE(WLK_PARTICLE_AIR, 7);
-VALUE(WLK_PARTICLE_HENYEY_GREENSTEIN, 8); VALUE(WLK_PARTICLE_USER, 9);
+VALUE(WLK_STRUCT_SURFACE_INFO, 26); VALUE(WLK_STRUCT_SURFACE_DETAIL, 27);
+VALUE(WLK_STRUCT_VIEW_INFO, 30); VALUE(WLK_STRUCT_CAMERA, 31); VALUE(WLK_STRUCT_QUALITY, 32);
+VALUE(WLK_STRUCT_QUALITY_STATE, 33); VALUE(WLK_STRUCT_FRAME_INFO, 40);
+VALUE(WLK_STRUCT_HEADLESS_TARGETS, 41); VALUE(WLK_STRUCT_IMAGE_DATA, 42);
+VALUE(WLK_STRUCT_FRAME_STATS, 43); VALUE(WLK_STRUCT_ERROR_ESTIMATE, 44);
+VALUE(WLK_STRUCT_LIGHT_SHADOW, 47); VALUE(WLK_STRUCT_RAY_BATCH, 50);
+VALUE(WLK_STRUCT_PHASE_QUERY, 51); VALUE(WLK_STRUCT_SKY_MAP_QUERY, 52);
+VALUE(WLK_STRUCT_VULKAN_DEVICE_INFO, 1000); VALUE(WLK_STRUCT_VULKAN_REQUIREMENTS, 1001);
+VALUE(WLK_STRUCT_VULKAN_IMAGE, 1002); VALUE(WLK_STRUCT_VULKAN_VIEW_TARGETS, 1003);
+VALUE(WLK_STRUCT_SHADOW_MAP_INFO, 1004); VALUE(WLK_STRUCT_SHADOW_MAP_STATE, 1005);
+VALUE(WLK_STRUCT_AERIAL_PERSPECTIVE, 1006); VALUE(WLK_LOG_ERROR, 1); VALUE(WLK_LOG_WARNING, 2);
+VALUE(WLK_LOG_INFO, 3); VALUE(WLK_HEADLESS_VALIDATION, 1); VALUE(WLK_MODE_CPU, 0);
+VALUE(WLK_MODE_HEADLESS, 1); VALUE(WLK_MODE_ENGINE_DEVICE, 2); VALUE(WLK_AMBIENT_OFF, 0);
+VALUE(WLK_AMBIENT_AUTOMATIC, 1); VALUE(WLK_AMBIENT_GIVEN, 2); VALUE(WLK_PHASE_DEFAULT, 0);
+VALUE(WLK_PHASE_ANALYTIC, 1); VALUE(WLK_PHASE_TABLE, 2); VALUE(WLK_PARTICLE_CLOUD, 0);
+VALUE(WLK_PARTICLE_FOG, 1); VALUE(WLK_PARTICLE_HAZE, 2); VALUE(WLK_PARTICLE_RAIN, 3);
+VALUE(WLK_PARTICLE_ICE_COLUMN, 4); VALUE(WLK_PARTICLE_ICE_PLATE, 5); VALUE(WLK_PARTICLE_SNOW, 6);
+VALUE(WLK_PARTICLE_AIR, 7); VALUE(WLK_PARTICLE_HENYEY_GREENSTEIN, 8); VALUE(WLK_PARTICLE_USER, 9);
 VALUE(WLK_ATMOSPHERE_EARTH_CLEAR, 0); VALUE(WLK_ATMOSPHERE_EARTH_HAZY, 1);
 VALUE(WLK_ATMOSPHERE_EARTH_POLLUTED, 2); VALUE(WLK_ATMOSPHERE_MARS, 3);
 VALUE(WLK_FORMAT_R32_FLOAT, 1); VALUE(WLK_FORMAT_R16_FLOAT, 2); VALUE(WLK_FORMAT_R8_UNORM, 3);

@@ -158,6 +158,13 @@ void SurfaceWorld::turnLight(int steps) {
   host::check(wlkSetLights(context_.get(), 1, sizeof(WlkLight), &light), "wlkSetLights");
 }
 
+void SurfaceWorld::detail(double depth) {
+  auto info = host::make<WlkSurfaceDetail>();
+  info.depth = static_cast<float>(depth);
+  info.size = static_cast<float>(3 * depth);
+  host::check(wlkSetSurfaceDetail(context_.get(), surface_, &info), "wlkSetSurfaceDetail");
+}
+
 double SurfaceWorld::render() {
   const double begin = processClock_ms();
   host::check(wlkRenderHeadless(context_.get(), shown_, nullptr), "wlkRenderHeadless");

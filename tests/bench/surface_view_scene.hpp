@@ -43,6 +43,8 @@ class SurfaceWorld {
   double render();
   /// The light by `steps` millionths of a radian beside its place: what was kept is void.
   void turnLight(int steps);
+  /// Gives the surface detail so deep, m, with lumps three times as large; 0 takes it away.
+  void detail(double depth);
   /// Green of the last frame, one value per pixel of the view.
   [[nodiscard]] std::vector<double> picture() const;
 

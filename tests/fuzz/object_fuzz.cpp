@@ -161,6 +161,10 @@ class Run {
         x = input_.number<double>();
       }
       (void)checkResult(wlkSetSurfaceTransform(context_, surface, transform));
+    } else if (input_.oneIn(2)) {
+      Framed<WlkSurfaceDetail> detail(input_);
+      (void)checkResult(
+          wlkSetSurfaceDetail(context_, surface, input_.oneIn(8) ? nullptr : detail.get()));
     } else {
       float positions[12];
       for (float& x : positions) {

@@ -119,6 +119,8 @@ ParityResult parityCase(int which, ParityRow r) {
     ChordLight both = chordStretch(near, r.a.y, r.a.w, r.b.x);
     o.first = vec4(both.transmittance, both.inscatter, chordDepth(r.b.y, r.a.z),
                    chordLogarithm(r.b.y));
+    o.second = vec4(shellDepth(r.b.z), shellDensity(r.b.w, r.b.z, real(0.3f)), real(0.0f),
+                    real(0.0f));
   }
   if (which == CASE_TANGENT_SLAB) {
     TangentSlab slab = tangentSlab(r.a.w, r.b.w, head(r.a), head(r.b), head(r.c));

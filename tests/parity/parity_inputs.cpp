@@ -127,6 +127,8 @@ void chordRow(Random& random, size_t i, Row& row) {
     row[k] = i == k ? 0.0f : random.logarithmic(1e-6, 60);
   }
   row[5] = i == 0 ? 1.0f : random.uniform(0, 0.99);
+  row[6] = random.uniform(0, 1);
+  row[7] = random.uniform(-0.2, 1.2);
 }
 
 // Directions apart from the normal, where the azimuth is no matter of rounding.

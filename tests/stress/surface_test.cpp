@@ -110,6 +110,67 @@ TEST_F(SurfaceAbuse, MovesThatDoNotFitAreRefused) {
   victim.expectUnchanged();
 }
 
+TEST_F(SurfaceAbuse, DetailsOutOfRangeAreRefused) {
+  WlkContext c = victim.scene.context;
+  const WlkSurfaceInfo info = arrays.info(victim.medium, 0.01f);
+  WlkSurface surface{};
+  check(wlkCreateSurface(c, &info, &surface));
+  check(wlkPrepare(c));
+  const Image before = victim.scene.render();
+  const auto refused = [&](const char* field, const std::function<void(WlkSurfaceDetail&)>& spoil) {
+    auto detail = make<WlkSurfaceDetail>();
+    detail.depth = 0.1f;
+    spoil(detail);
+    EXPECT_FAILS(wlkSetSurfaceDetail(c, surface, &detail), INVALID, field);
+  };
+  using D = WlkSurfaceDetail;
+  for (const float x : {-1e-6f, 1.1e6f, NOT_A_NUMBER, INFINITE}) {
+    refused("depth", [x](D& d) { d.depth = x; });
+    refused("size", [x](D& d) { d.size = x; });
+  }
+  for (const float x : {0.04f, 1.01f, NOT_A_NUMBER}) {
+    refused("softness", [x](D& d) { d.softness = x; });
+  }
+  for (const float x : {-1.1e7f, 1.1e7f, NOT_A_NUMBER}) {
+    refused("offset", [x](D& d) { d.offset[2] = x; });
+  }
+  auto good = make<WlkSurfaceDetail>();
+  good.depth = 0.1f;
+  abuseHeader<WlkSurfaceDetail>(good, [&](const WlkSurfaceDetail* detail) {
+    return wlkSetSurfaceDetail(c, surface, detail);
+  });
+  EXPECT_TRUE(victim.scene.render() == before);
+  check(wlkDestroySurface(c, surface));
+  EXPECT_FAILS(wlkSetSurfaceDetail(c, surface, &good), WLK_ERROR_INVALID_HANDLE, "surface");
+  EXPECT_FAILS(wlkSetSurfaceDetail(c, surface, nullptr), WLK_ERROR_INVALID_HANDLE, "surface");
+  victim.expectUnchanged();
+}
+
+// Depths and lumps from a micrometre to far more than the cloud, and back, while frames run.
+TEST_F(SurfaceAbuse, AnyDetailIsSane) {
+  WlkContext c = victim.scene.context;
+  const WlkSurfaceInfo info = arrays.info(victim.medium, 0.01f);
+  WlkSurface surface{};
+  check(wlkCreateSurface(c, &info, &surface));
+  check(wlkPrepare(c));
+  const Image plain = victim.scene.render();
+  for (const float depth : {1e6f, 1e-7f, 3.0f, 0.2f, 1e-3f}) {
+    for (const float size : {0.0f, 1e-6f, 1e6f}) {
+      auto detail = make<WlkSurfaceDetail>();
+      detail.depth = depth;
+      detail.size = size;
+      detail.softness = size > 0 ? 0.05f : 1.0f;
+      detail.offset[0] = 1e7f;
+      check(wlkSetSurfaceDetail(c, surface, &detail));
+      EXPECT_EQ(victim.scene.render().badValues(), 0u) << depth << ' ' << size;
+    }
+  }
+  check(wlkSetSurfaceDetail(c, surface, nullptr));
+  EXPECT_TRUE(victim.scene.render() == plain);
+  check(wlkDestroySurface(c, surface));
+  victim.expectUnchanged();
+}
+
 TEST_F(SurfaceAbuse, NeedADevice) {
   const CpuContext cpu;
   auto medium = make<WlkMediumInfo>();
