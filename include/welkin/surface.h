@@ -47,10 +47,10 @@ typedef struct WlkSurfaceInfo {
 
 /** Lumps and fissures under the faces of a surface, which its triangles need not have (a
  * hypertexture, [B08] 8). Noise moves the edge of the cloud inwards, up to `depth` under a face;
- * deeper, and without detail everywhere, the cloud is homogeneous. How deep points lie is found anew
- * in each frame that shows a changed mesh, in cells of 0.8 depths or, in large meshes, wider ones;
- * bumps much smaller than the depth are smoothed away. The pattern goes with the mesh's own axes,
- * not with vertices that move in them. */
+ * deeper, and without detail everywhere, the cloud is homogeneous. How deep points lie is found
+ * anew in each frame that shows a changed mesh, in cells of 0.8 depths or, in large meshes, wider
+ * ones; bumps much smaller than the depth are smoothed away. The pattern goes with the mesh's own
+ * axes, not with vertices that move in them. */
 typedef struct WlkSurfaceDetail {
   uint32_t sType;
   uint32_t structSize;
