@@ -6,6 +6,7 @@ links      every link and picture of every page leads somewhere, also to the hea
 code       what stands in ```c, glsl and python compiles or runs; the README's C host runs
 commands   programs, options, presets and files of shell blocks exist
 reference  Doxygen has no complaint, and every function and structure of the API has its text
+tests      every test that docs/reliability.md names exists
 """
 import os
 import pathlib
@@ -208,7 +209,22 @@ def reference():
     return count
 
 
-checked = {"links": links, "code": code, "commands": commands, "reference": reference}[SUITE]()
+def tests():
+    page = SOURCE / "docs" / "reliability.md"
+    known = set()
+    for file in SOURCE.glob("tests/**/*.cpp"):
+        text = file.read_text(encoding="utf-8")
+        for suite, name in re.findall(r"^(?:TYPED_)?TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", text, re.M):
+            known.update((f"{suite}.{name}", f"{suite}.*"))
+    known.add("Docs.Tests")
+    named = re.findall(r"`([A-Z]\w*\.(?:[A-Z]\w*|\*))`", page.read_text(encoding="utf-8"))
+    for name in sorted(set(named) - known):
+        report(page, f"there is no test {name}")
+    return len(named)
+
+
+checked = {"links": links, "code": code, "commands": commands, "reference": reference,
+           "tests": tests}[SUITE]()
 for problem in problems:
     print(problem)
 print(f"{SUITE}: {checked} checked, {len(problems)} problem(s)")
