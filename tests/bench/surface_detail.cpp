@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// welkin_surface_detail ROUNDS: CPU times of frames of cloud surfaces with detail and without, as
-// CSV on standard output: docs/results/surface-detail.csv. Medians of interleaved rounds, all
-// threads, ms: of a frame in which nothing changed, and of one in which the light moved.
+// welkin_surface_detail ROUNDS [RAYS]: CPU times of frames of cloud surfaces with detail and
+// without, as CSV on standard output: docs/results/surface-detail.csv. Medians of interleaved
+// rounds, all threads, ms: of a frame in which nothing changed, and of one in which the light
+// moved. RAYS: along the edge of a pixel of the truth's pictures.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -15,7 +16,6 @@ namespace {
 
 using namespace bench;
 
-constexpr uint32_t RAYS = 4;
 constexpr double PART = 0.05;  // depth of the detail, of the body's height
 
 double heightOf(const BodyMesh& mesh) {
@@ -32,9 +32,9 @@ struct Times {
   std::vector<double> still, moving;
 };
 
-void measure(SurfaceWorld& world, const SurfaceView& view, int rounds) {
+void measure(SurfaceWorld& world, const SurfaceView& view, int rounds, uint32_t rays) {
   const BodyMesh mesh = bodyMesh(view.body);
-  world.show(view, mesh, {false, 0, 0, WLK_QUALITY_HIGH}, RAYS);
+  world.show(view, mesh, {false, 0, 0, WLK_QUALITY_HIGH}, rays);
   const double depth = PART * heightOf(mesh);
   Times plain;
   Times detailed;
@@ -69,13 +69,14 @@ void measure(SurfaceWorld& world, const SurfaceView& view, int rounds) {
 
 int main(int argc, char** argv) {
   const int rounds = argc > 1 ? std::atoi(argv[1]) : 5;
+  const uint32_t rays = argc > 2 ? static_cast<uint32_t>(std::max(std::atoi(argv[2]), 1)) : 4;
   try {
     SurfaceWorld world(canonicalCurve());
     std::printf(
         "view,still_ms,still_detail_ms,still_ratio,moving_ms,moving_detail_ms,moving_ratio\n");
     for (const SurfaceView& view : surfaceViews()) {
       if (view.body == "cumulus" || view.body == "stratocumulus") {
-        measure(world, view, rounds);
+        measure(world, view, rounds, rays);
       }
     }
   } catch (const std::exception& error) {
