@@ -133,6 +133,19 @@ TEST(WindowSample, ShowsASceneFileAndKeepsABudget) {
   EXPECT_NE(loaded, own);
 }
 
+// A mesh with detail in the engine's frames: white in the middle of a blue sky.
+TEST(WindowSample, ShowsACloudBoundedByAMesh) {
+  if (std::string(WELKIN_WINDOW).empty()) {
+    GTEST_SKIP() << "no window sample or no xvfb-run in this build";
+  }
+  const std::vector<unsigned char> pixels =
+      screenshot("compute", std::string("--scene ") + WELKIN_SCENES + "/surface-cumulus.json");
+  ASSERT_FALSE(pixels.empty());
+  const auto red = [&](int x, int y) { return pixels[3 * static_cast<size_t>(y * WIDTH + x)]; };
+  EXPECT_GT(red(WIDTH / 2, HEIGHT / 2), 180);
+  EXPECT_LT(red(WIDTH / 8, HEIGHT / 8), 120);
+}
+
 double mean(const std::vector<unsigned char>& pixels, int fromRow, int toRow, int channel) {
   double sum = 0;
   int count = 0;

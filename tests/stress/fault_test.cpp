@@ -84,6 +84,7 @@ class Life {
   WlkResult uploadDiameters() const;
   void addTargetSteps(std::vector<Step>& steps);
   WlkResult createSurface();
+  WlkResult setDetail() const;
   WlkResult moveSurface() const;
   WlkResult createMap();
   WlkResult recordMap();
@@ -178,6 +179,12 @@ WlkResult Life::createSurface() {
   const WlkResult result = wlkCreateSurface(context, &info, &surface_);
   EXPECT_TRUE(result >= 0 || surface_.id == 0);
   return result;
+}
+
+WlkResult Life::setDetail() const {
+  auto detail = make<WlkSurfaceDetail>();
+  detail.depth = 20;
+  return wlkSetSurfaceDetail(context, surface_, &detail);
 }
 
 WlkResult Life::moveSurface() const {
@@ -307,6 +314,7 @@ std::vector<Step> Life::steps() {
   addTargetSteps(steps);
   if (kind_.surface) {
     steps.push_back({"wlkCreateSurface", [this] { return createSurface(); }, true});
+    steps.push_back({"wlkSetSurfaceDetail", [this] { return setDetail(); }, true});
   }
   steps.push_back({"wlkPrepare", prepare, true});
   const auto frame = [&] {
@@ -457,7 +465,7 @@ TEST_F(Faults, EveryCallOfVulkanMayFailOnce) {
     std::printf("  %-24s %llu\n", entry.c_str(), static_cast<unsigned long long>(count));
   }
   for (const char* entry : {"wlkCreateContext", "wlkUploadVolume", "wlkUploadVolumeBricks",
-                            "wlkCreateSurface", "wlkPrepare"}) {
+                            "wlkCreateSurface", "wlkSetSurfaceDetail", "wlkPrepare"}) {
     EXPECT_GT(faultsOf[entry], 0u) << entry;
   }
 }
