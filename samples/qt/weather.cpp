@@ -65,6 +65,8 @@ Weather::Weather(const Gpu& gpu, VkExtent2D half, uint32_t framesInFlight, uint3
   viewInfo_.targetFormat = WLK_TARGET_B10G11R11_FLOAT;
   WlkQuality level = make<WlkQuality>();
   level.level = quality;
+  level.scattering = WLK_SCATTERING_ALL_ORDERS;  // clouds are as bright as they are
+  level.lightFrames = 8;
   for (welkin::View& view : views_) {
     view = welkin::View(context_, viewInfo_);
     check(wlkSetQuality(context_, view, &level));

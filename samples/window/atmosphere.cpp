@@ -56,6 +56,9 @@ Atmosphere::Atmosphere(const Gpu& gpu, VkExtent2D extent, uint32_t composite,
     : viewInfo_(make<WlkViewInfo>()),
       quality_(make<WlkQuality>()),
       context_(makeContext(gpu, framesInFlight)) {
+  // Clouds are as bright as they are; when the sun moves, within some frames.
+  quality_.scattering = WLK_SCATTERING_ALL_ORDERS;
+  quality_.lightFrames = 8;
   if (scene != nullptr) {
     quality_ = scene->quality;
     hour_ = settings.hour;  // the scene's lights stay until the user turns the clock
