@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// Failures that users of other renderers reported, asked of Welkin; docs/reliability.md has the
+// list.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/headless_scene.hpp"
+
+namespace welkin::test {
+namespace {
+
+// 9: an exactly black picture stays so where nothing shines, and takes light where something does.
+TEST(Reported, BlackPicturesAreNoTrouble) {
+  const HeadlessScene scene;
+  scene.addBall(0.01f);
+  const std::vector<float> black(size_t{scene.options().width} * scene.options().height * 4, 0.0f);
+  auto targets = make<WlkHeadlessTargets>();
+  targets.color = black.data();
+  const Image dark = scene.render(&targets);
+  EXPECT_EQ(dark.badValues(), 0u);
+  EXPECT_EQ(dark.mean(), 0);
+  scene.setSky();
+  scene.setSun(40, 30);
+  const Image day = scene.render(&targets);
+  EXPECT_EQ(day.badValues(), 0u);
+  EXPECT_GT(day.mean(), 0);
+}
+
+// 5: a slab of one voxel, seen from a camera that creeps past, changes as little as its way.
+TEST(Reported, ThinVolumesDoNotFlicker) {
+  const HeadlessScene scene;
+  scene.setSun(50, 20);
+  const WlkVolume slab = scene.addVolume(
+      scene.addMedium(), {32, 1, 32}, boxTransform({-2000, 1500, -6000}, {4000, 15, 4000}), 0.02f);
+  scene.upload(slab, {32, 1, 32}, std::vector<float>(1024, 1.0f));
+  double last = 0;
+  for (int i = 0; i < 40; ++i) {
+    scene.setCamera({0.02 * i, 2, 0.05 * i}, 0, 12);
+    const double mean = scene.render().mean();
+    EXPECT_GT(mean, 0);
+    if (i > 0) {
+      EXPECT_NEAR(mean / last, 1, 1e-3) << i;
+    }
+    last = mean;
+  }
+}
+
+// 23: the sky is the same on both sides of the sun's azimuth, across which nothing jumps.
+TEST(Reported, NoSeamAtTheSunsAzimuth) {
+  SceneOptions options;
+  options.width = 64;
+  const HeadlessScene scene(options);
+  scene.setSky();
+  for (const double elevation : {2.0, 20.0, 60.0}) {
+    scene.setSun(elevation, 0);
+    scene.setCamera({0, 2, 0}, 0, 80);  // over the zenith, the sun's disk out of view
+    const Image image = scene.render();
+    for (uint32_t y = 0; y < image.height; ++y) {
+      for (uint32_t x = 0; x < image.width / 2; ++x) {
+        const float left = image.at(x, y)[2];
+        const float right = image.at(image.width - 1 - x, y)[2];
+        EXPECT_NEAR(left / right, 1, 1e-3) << elevation << ' ' << x << ' ' << y;
+      }
+    }
+  }
+}
+
+// Largest change of the light's slope from row to row, over the light, in the middle column and
+// over the horizon, which is in the picture's middle: under it the ground begins.
+double roughness(const Image& image) {
+  double worst = 0;
+  for (uint32_t y = 1; y + 1 < image.height / 2; ++y) {
+    const auto value = [&](uint32_t row) {
+      return static_cast<double>(image.at(image.width / 2, row)[1]);
+    };
+    worst = std::max(
+        worst, std::abs(value(y - 1) - 2 * value(y) + value(y + 1)) / std::max(value(y), 1e-9));
+  }
+  return worst;
+}
+
+// 7: fog of 50 m of sight, from just over the ground to just under its top.
+TEST(Reported, DenseFogNearTheGroundHasNoBands) {
+  SceneOptions options;
+  options.height = 96;
+  options.layers = WLK_LAYER_SKY | WLK_LAYER_FOG;
+  const HeadlessScene scene(options);
+  scene.setSky();
+  scene.setFog(0.08f, 30);
+  scene.setSun(35, 180);  // behind the eye
+  for (const double height : {0.01, 1.7, 29.0, 90.0}) {
+    scene.setCamera({0, height, 0}, 0, 0);
+    const Image image = scene.render();
+    EXPECT_EQ(image.badValues(), 0u) << height;
+    EXPECT_LT(roughness(image), 0.04) << height;  // from above its edge is 0.031
+  }
+}
+
+// 16: a wall across the horizon has no stripe there.
+TEST(Reported, NoStripeOnObjectsAtTheHorizon) {
+  SceneOptions options;
+  options.height = 96;
+  const HeadlessScene scene(options);
+  scene.setSky();
+  scene.setSun(30, 140);
+  const auto camera = make<WlkCamera>();
+  const auto* m = camera.clipFromView;
+  for (const double distance : {2e3, 2e4, 1e5}) {
+    const double depth = (static_cast<double>(m[10]) * -distance + static_cast<double>(m[14])) /
+                         (static_cast<double>(m[11]) * -distance + static_cast<double>(m[15]));
+    const std::vector<float> pixels(size_t{options.width} * options.height,
+                                    static_cast<float>(depth));
+    auto targets = make<WlkHeadlessTargets>();
+    targets.depth = pixels.data();
+    scene.setCamera({0, 100, 0}, 0, 0);
+    const Image image = scene.render(&targets);
+    EXPECT_EQ(image.badValues(), 0u);
+    EXPECT_GT(image.mean(), 0);
+    EXPECT_LT(roughness(image), 0.02) << distance;
+  }
+}
+
+// 30 and 31: no asymmetry of 1 is taken; the largest that are give a picture without black dots.
+TEST(Reported, SharpestPhaseFunctionsAreFinite) {
+  const HeadlessScene scene;
+  scene.setSun(20, 0);
+  auto info = make<WlkMediumInfo>();
+  info.particle = WLK_PARTICLE_HENYEY_GREENSTEIN;
+  for (const float g : {1.0f, -1.0f, 0.9999f}) {
+    info.asymmetry = g;
+    WlkMedium none{};
+    EXPECT_EQ(wlkCreateMedium(scene.context, &info, &none), WLK_ERROR_INVALID_ARGUMENT) << g;
+  }
+  for (const float g : {0.999f, -0.999f}) {
+    const WlkVolume slab =
+        scene.addVolume(scene.addHenyeyGreenstein(g), {4, 4, 4},
+                        boxTransform({-1000, 500, -5000}, {2000, 2000, 2000}), 0.002f);
+    scene.upload(slab, {4, 4, 4}, std::vector<float>(64, 1.0f));
+    for (const double pitch : {20.0, 19.9, -20.0}) {
+      scene.setCamera({0, 2, 0}, 0, pitch);
+      const Image image = scene.render();
+      EXPECT_EQ(image.badValues(), 0u) << g << ' ' << pitch;
+    }
+    check(wlkDestroyVolume(scene.context, slab));
+  }
+}
+
+// 41: fog keeps its altitude when the camera rises: what is over it falls off as its density.
+TEST(Reported, FogStaysWhereItIs) {
+  SceneOptions options;
+  options.composite = WLK_COMPOSITE_SEPARATE;
+  options.width = options.height = 9;
+  options.layers = WLK_LAYER_FOG;
+  const HeadlessScene scene(options);
+  constexpr double EXTINCTION = 0.002;
+  constexpr double HEIGHT = 200;
+  scene.setFog(static_cast<float>(EXTINCTION), static_cast<float>(HEIGHT));
+  for (const double y : {2.0, 100.0, 400.0, 1500.0}) {
+    scene.setCamera({0, y, 0}, 0, 90);
+    scene.render();
+    const Image image = scene.read(WLK_IMAGE_TRANSMITTANCE);
+    const double depth = EXTINCTION * HEIGHT * std::exp(-y / HEIGHT);
+    // Floats, and a forward peak that counts as passing: at most all of the depth.
+    const double passes = static_cast<double>(image.at(4, 4)[0]);
+    EXPECT_GE(passes, std::exp(-depth) - 1e-5) << y;
+    EXPECT_LE(passes, std::exp(-0.3 * depth) + 1e-5) << y;
+  }
+}
+
+}  // namespace
+}  // namespace welkin::test
