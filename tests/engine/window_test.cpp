@@ -3,6 +3,7 @@
 // the same picture from every composite mode.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -55,7 +56,8 @@ std::vector<unsigned char> readPicture(const std::string& file, int expectedWidt
 
 // RGB bytes of a screenshot after a few frames, under validation.
 std::vector<unsigned char> screenshot(const std::string& mode, const std::string& more = "") {
-  const std::string file = testing::TempDir() + "welkin_window_" + mode + ".png";
+  const std::string file =
+      testing::TempDir() + "welkin_window_" + mode + "_" + std::to_string(getpid()) + ".png";
   std::remove(file.c_str());
   const std::string size = std::to_string(WIDTH) + "x" + std::to_string(HEIGHT);
   EXPECT_EQ(run("--validate --quality low --frames 4 --composite " + mode + " --size " + size +
