@@ -16,7 +16,7 @@ extern "C" {
  * changed mesh, light or place shows in the next frame. Light scattered once is exact along each
  * ray; light scattered more often is that of slabs of the canonical cloud ([B08] 5) which light
  * maps of the mesh choose, exact for slabs of droplets, elsewhere as docs/models.md says (bodies of
- * optical radius 2 to 30: pictures' totals within 22 %, spheres' within 14 %). Of media other than
+ * optical radius 2 to 30: pictures' totals within 24 %, spheres' within 12 %). Of media other than
  * cloud droplets (rain, ice, snow, haze) light is scattered once by their own phase function, more
  * often as by cloud of equal (1 - asymmetry) optical depth. */
 typedef struct WlkSurfaceInfo {
@@ -82,8 +82,9 @@ WLK_API WlkResult wlkDestroySurface(WlkContext context, WlkSurface surface);
 WLK_API WlkResult wlkSetSurfaceTransform(WlkContext context, WlkSurface surface,
                                          const double worldFromSurface[12]);
 /** Gives a surface detail, or other detail; null takes it away. The first detail of a context takes
- * 6.6 MB of device memory and some 0.1 s, each up to 2 MB. [C]
- * Errors: INVALID_ARGUMENT (depth, size, softness, offset), OUT_OF_*. */
+ * 6.6 MB of device memory and some 0.1 s, each up to 2 MB: cells as fine as the depth needs in the
+ * mesh as it is now. Set it again when positions or transform have made the mesh twice as large.
+ * [C] Errors: INVALID_ARGUMENT (depth, size, softness, offset), OUT_OF_*. */
 WLK_API WlkResult wlkSetSurfaceDetail(WlkContext context, WlkSurface surface,
                                       const WlkSurfaceDetail* detail);
 /** New places of all vertices between the same triangles, for animation; as WlkSurfaceInfo has

@@ -90,8 +90,8 @@ void fillSurface(WlkContext_T& c, const WlkSurfaceInfo& s, const SurfaceMesh& me
   state.extinction = s.extinction;
   state.optics = surfaceOptics(c.medium(s.medium).medium, c.surfaceTables.asymmetry);
   state.worldFromMesh = transformOf(s.worldFromSurface);
-  state.low = mesh.low;
-  state.high = mesh.high;
+  state.newLow = mesh.low;
+  state.newHigh = mesh.high;
   state.placeOf.assign(mesh.placeOf.begin(), mesh.placeOf.end());
   state.places = static_cast<uint32_t>(mesh.positions.size());
   state.triangles = static_cast<uint32_t>(mesh.triangles.size());
@@ -234,15 +234,15 @@ WlkResult wlkSetSurfacePositions(WlkContext context, WlkSurface surface, const f
           vk::Buffer(device, PLACE * state.places, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true);
     }
     // Nothing throws from here on.
-    state.low.fill(SURFACE_POSITION_MAX);
-    state.high.fill(-SURFACE_POSITION_MAX);
+    state.newLow.fill(SURFACE_POSITION_MAX);
+    state.newHigh.fill(-SURFACE_POSITION_MAX);
     for (size_t i = 0; i < vertexCount; ++i) {
       const std::array<float, 3> place = vertexAt(positions, vertexStride, i);
       std::memcpy(static_cast<char*>(state.newVertices.data()) + PLACE * state.placeOf[i],
                   place.data(), PLACE);
       for (size_t axis = 0; axis < 3; ++axis) {
-        state.low[axis] = std::min(state.low[axis], place[axis]);
-        state.high[axis] = std::max(state.high[axis], place[axis]);
+        state.newLow[axis] = std::min(state.newLow[axis], place[axis]);
+        state.newHigh[axis] = std::max(state.newHigh[axis], place[axis]);
       }
     }
     return WLK_SUCCESS;

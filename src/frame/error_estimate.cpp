@@ -54,8 +54,8 @@ double leftOfFog(double first) {
 }
 
 // In volumes what the grid of their light leaves, whatever the view: directions, and cells that are
-// deep. Root mean square of spheres of optical radius 2 to 30 and of a cumulus at every level
-// (docs/results/volume-errors.csv), each within a factor of 1.6.
+// deep. Fitted to the root mean squares of spheres of optical radius 2 to 30 at every level
+// (docs/results/volume-errors.csv); its test allows a factor of 2.
 constexpr double ALL_ORDERS_VOLUME = 0.045;
 constexpr double ALL_ORDERS_CELLS = 0.4;
 constexpr double ALL_ORDERS_CELL_POWER = 1.5;

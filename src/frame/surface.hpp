@@ -52,8 +52,10 @@ struct SurfaceState {
   SurfaceDetail detail;
   SurfaceShell shell;  // where there is, or was, detail
   glm::dmat4x3 worldFromMesh{1.0};
-  std::array<float, 3> low{};
+  std::array<float, 3> low{};  // of the vertices on the GPU
   std::array<float, 3> high{};
+  std::array<float, 3> newLow{};  // of those to be uploaded
+  std::array<float, 3> newHigh{};
   std::pmr::vector<uint32_t> placeOf;  // of the engine's vertices, among those of the GPU
   uint32_t places = 0;
   uint32_t triangles = 0;

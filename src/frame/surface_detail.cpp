@@ -18,14 +18,23 @@ constexpr double BORDER = 2;  // cells on each side in which nothing of the mesh
 constexpr uint32_t LEAST_CELLS = 8;
 constexpr uint32_t MOST_CELLS = 256;
 
-glm::dvec3 lowOf(const SurfaceState& s) {
-  return {s.low[0], s.low[1], s.low[2]};
+glm::dvec3 vectorOf(const std::array<float, 3>& a) {
+  return {a[0], a[1], a[2]};
 }
 
-// Edges of the mesh's box in its own frame, never 0.
-glm::dvec3 edgesOf(const SurfaceState& s) {
-  const glm::dvec3 edge = glm::dvec3(s.high[0], s.high[1], s.high[2]) - lowOf(s);
+glm::dvec3 lowOf(const SurfaceState& s) {
+  return vectorOf(s.low);
+}
+
+// Edges of a box, never 0.
+glm::dvec3 edgesBetween(const std::array<float, 3>& low, const std::array<float, 3>& high) {
+  const glm::dvec3 edge = vectorOf(high) - vectorOf(low);
   return glm::max(edge, std::max({edge.x, edge.y, edge.z, 1e-6}) * 1e-6);
+}
+
+// Of the mesh's box in its own frame.
+glm::dvec3 edgesOf(const SurfaceState& s) {
+  return edgesBetween(s.low, s.high);
 }
 
 // World lengths of the mesh's axes.
@@ -46,7 +55,7 @@ glm::dvec3 cellOf(const SurfaceState& s) {
 }  // namespace
 
 std::array<uint32_t, 3> shellCells(const SurfaceState& s, double depth) {
-  const glm::dvec3 edges = edgesOf(s) * scalesOf(s);
+  const glm::dvec3 edges = edgesBetween(s.newLow, s.newHigh) * scalesOf(s);
   double cell = std::max(depth / model::f64::SHELL_CELLS, 1e-6);
   std::array<uint32_t, 3> cells{};
   for (;; cell *= 1.1) {

@@ -33,7 +33,7 @@ struct SurfaceShell {
 
 constexpr uint32_t SHELL_ROOM = 1 << 19;  // at most
 
-// Cells for a depth of detail, m in the world.
+// Cells for a depth of detail, m in the world, over the box of the latest positions.
 std::array<uint32_t, 3> shellCells(const SurfaceState& surface, double depth);
 // Image and room for it, and the noise if that is not there. Throws before anything has changed.
 vk::Image makeShell(vk::Device& device, const std::array<uint32_t, 3>& cells,

@@ -362,6 +362,8 @@ VkDeviceSize uploadSurface(const vk::Device& device, VkCommandBuffer commands,
   copy(surface.newIndices, surface.indices);
   memoryBarrier(vk, commands, {VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
                 {COMPUTE, SHADER_ACCESS});
+  surface.low = surface.newLow;
+  surface.high = surface.newHigh;
   ++surface.version;
   return bytes;
 }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "support/engine_scene.hpp"
 #include "support/surface_scene.hpp"
 #include "tables/detail_noise.hpp"
 
@@ -53,26 +54,6 @@ class SurfaceDetailImage : public ::testing::Test {
     return wlkSetSurfaceDetail(scene.context, surface, &detail);
   }
 
-  // Unit vector of a pixel of the camera that looks along -z.
-  glm::dvec3 direction(uint32_t x, uint32_t y) const {
-    const auto camera = make<WlkCamera>();
-    const double focus = std::abs(static_cast<double>(camera.clipFromView[5]));
-    const double aspect = double(scene.options().width) / scene.options().height;
-    const double u = 2 * (x + 0.5) / scene.options().width - 1;
-    const double v = 1 - 2 * (y + 0.5) / scene.options().height;
-    return glm::normalize(glm::dvec3(u * aspect / focus, v / focus, -1));
-  }
-
-  const WlkPassStats lightPass() const {
-    for (const WlkPassStats& one : scene.passes()) {
-      if (one.pass == WLK_PASS_SURFACE_LIGHT) {
-        return one;
-      }
-    }
-    ADD_FAILURE() << "no such pass";
-    return {};
-  }
-
   HeadlessScene scene{separate()};
 };
 
@@ -117,7 +98,7 @@ TEST_F(SurfaceDetailImage, TakesWhatTheNoiseSays) {
   double taken = 0;
   for (uint32_t y = 0; y < image.height; ++y) {
     for (uint32_t x = 0; x < image.width; ++x) {
-      const BoxRay truth = alongBox(noise, eye, direction(x, y));
+      const BoxRay truth = alongBox(noise, eye, pixelDirection(scene, x, y));
       if (truth.sideways > 2 * double{DEPTH}) {
         ++seen;
         const double filled =
@@ -157,7 +138,7 @@ TEST_F(SurfaceDetailImage, StaysWithinTheMesh) {
   EXPECT_TRUE(scene.render() == plain);
   check(setDetail(surface, 0));
   EXPECT_TRUE(scene.render() == plain);
-  EXPECT_EQ(lightPass().commands, 0u);
+  EXPECT_EQ(surfaceLightPass(scene).commands, 0u);
 }
 
 TEST_F(SurfaceDetailImage, FramesRepeatAndKeepTheCells) {
@@ -165,18 +146,18 @@ TEST_F(SurfaceDetailImage, FramesRepeatAndKeepTheCells) {
   scene.setSun(40, 60);
   check(setDetail(surface, DEPTH));
   const Image first = scene.render();
-  const uint32_t all = lightPass().commands;
+  const uint32_t all = surfaceLightPass(scene).commands;
   EXPECT_TRUE(scene.render() == first);
-  EXPECT_EQ(lightPass().commands, 0u);
+  EXPECT_EQ(surfaceLightPass(scene).commands, 0u);
   scene.setSun(40, 61);
   EXPECT_FALSE(scene.render() == first);
-  const uint32_t light = lightPass().commands;
+  const uint32_t light = surfaceLightPass(scene).commands;
   EXPECT_EQ(all, light + 3);  // the cells stay
   scene.setSun(40, 60);
   EXPECT_TRUE(scene.render() == first);
   scene.setQuality(WLK_QUALITY_LOW, WLK_QUALITY_NO_SKIP);
   EXPECT_TRUE(scene.render() == first);
-  EXPECT_EQ(lightPass().commands, all);
+  EXPECT_EQ(surfaceLightPass(scene).commands, all);
 }
 
 // A mesh that changes shows in the next frame as if it had always been so.
@@ -184,14 +165,8 @@ TEST_F(SurfaceDetailImage, FollowsTheMesh) {
   const WlkSurface surface =
       addSurface(scene, support::torusMesh(), scene.addMedium(), 0.01f, {1, 1, 1}, {0, 0, -4000});
   scene.setSun(40, 60);
-  SurfaceArrays arrays(support::torusMesh());
   const auto scaled = [&](float scale) {
-    std::vector<float> positions = arrays.positions;
-    for (float& x : positions) {
-      x *= scale;
-    }
-    check(wlkSetSurfacePositions(scene.context, surface, positions.data(),
-                                 static_cast<uint32_t>(positions.size() / 3), 12));
+    setScaledPositions(scene, surface, support::torusMesh(), scale);
   };
   scaled(900);
   scene.render();
@@ -201,6 +176,34 @@ TEST_F(SurfaceDetailImage, FollowsTheMesh) {
   EXPECT_FALSE(scene.render() == first);
   scaled(900);
   EXPECT_TRUE(scene.render() == first);
+}
+
+// Until they are uploaded, new positions change nothing: neither faces nor the cells under them.
+TEST(SurfaceDetailEngine, PositionsWaitForTheUpdate) {
+  EngineScene scene;
+  scene.setCamera({0, 2, 0}, 0, 0);
+  const WlkSurface surface =
+      addSurface(scene, support::torusMesh(), scene.addMedium(), 0.01f, {1, 1, 1}, {0, 0, -4000});
+  scene.setSun(40, 60);
+  setScaledPositions(scene, surface, support::torusMesh(), 900);
+  auto detail = make<WlkSurfaceDetail>();
+  detail.depth = DEPTH;
+  detail.size = SIZE;
+  check(wlkSetSurfaceDetail(scene.context, surface, &detail));
+  check(wlkPrepare(scene.context));
+  scene.renderFrame();
+  const Image first = scene.read();
+  EXPECT_GT(first.mean(), 0);
+  setScaledPositions(scene, surface, support::torusMesh(), 500);
+  scene.update = false;
+  scene.renderFrame();
+  EXPECT_TRUE(scene.read() == first);
+  scene.update = true;
+  scene.renderFrame();
+  EXPECT_FALSE(scene.read() == first);
+  setScaledPositions(scene, surface, support::torusMesh(), 900);
+  scene.renderFrame();
+  EXPECT_TRUE(scene.read() == first);
 }
 
 // Far from the world's origin, and turned with the camera, the same is seen.

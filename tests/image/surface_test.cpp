@@ -35,16 +35,6 @@ class SurfaceImage : public ::testing::Test {
                       middle);
   }
 
-  // Unit vector of a pixel of the camera that looks along -z.
-  static glm::dvec3 direction(const HeadlessScene& scene, uint32_t x, uint32_t y) {
-    const auto camera = make<WlkCamera>();
-    const double focus = std::abs(static_cast<double>(camera.clipFromView[5]));
-    const double aspect = double(scene.options().width) / scene.options().height;
-    const double u = 2 * (x + 0.5) / scene.options().width - 1;
-    const double v = 1 - 2 * (y + 0.5) / scene.options().height;
-    return glm::normalize(glm::dvec3(u * aspect / focus, v / focus, -1));
-  }
-
   // Length of a ray in the box, up to `wall` from the eye.
   static double chord(const glm::dvec3& eye, const glm::dvec3& ray, double wall) {
     double begin = 0;
@@ -70,7 +60,7 @@ class SurfaceImage : public ::testing::Test {
     int covered = 0;
     for (uint32_t y = 0; y < image.height; ++y) {
       for (uint32_t x = 0; x < image.width; ++x) {
-        const glm::dvec3 ray = direction(scene, x, y);
+        const glm::dvec3 ray = pixelDirection(scene, x, y);
         const double length = chord(eye, ray, wallDepth / -ray.z);
         covered += length > 0 ? 1 : 0;
         EXPECT_NEAR(image.at(x, y)[0], std::exp(-static_cast<double>(EXTINCTION) * length),
@@ -133,7 +123,7 @@ TEST_F(SurfaceImage, HasNoCracks) {
     const Image image = fine.read(WLK_IMAGE_TRANSMITTANCE);
     for (uint32_t y = 0; y < image.height; ++y) {
       for (uint32_t x = 0; x < image.width; ++x) {
-        const glm::dvec3 ray = direction(fine, x, y);
+        const glm::dvec3 ray = pixelDirection(fine, x, y);
         const glm::dvec3 origin(eye[0], eye[1], eye[2]);
         const double nearest = -glm::dot(origin, ray);
         const double square = 1e6 - glm::dot(origin, origin) + nearest * nearest;

@@ -41,7 +41,8 @@ TEST(Reported, ThinVolumesDoNotFlicker) {
     const double mean = scene.render().mean();
     EXPECT_GT(mean, 0);
     if (i > 0) {
-      EXPECT_NEAR(mean / last, 1, 1e-3) << i;
+      // 5 cm of at least 1500 m, three times over.
+      EXPECT_NEAR(mean / last, 1, 1e-4) << i;
     }
     last = mean;
   }
@@ -51,6 +52,8 @@ TEST(Reported, ThinVolumesDoNotFlicker) {
 TEST(Reported, NoSeamAtTheSunsAzimuth) {
   SceneOptions options;
   options.width = 64;
+  // The steps of a ray are sums of floats of either sign: below 3e-6 seen.
+  constexpr float MIRRORED = 1e-5f;
   const HeadlessScene scene(options);
   scene.setSky();
   for (const double elevation : {2.0, 20.0, 60.0}) {
@@ -61,7 +64,7 @@ TEST(Reported, NoSeamAtTheSunsAzimuth) {
       for (uint32_t x = 0; x < image.width / 2; ++x) {
         const float left = image.at(x, y)[2];
         const float right = image.at(image.width - 1 - x, y)[2];
-        EXPECT_NEAR(left / right, 1, 1e-3) << elevation << ' ' << x << ' ' << y;
+        EXPECT_NEAR(left / right, 1, MIRRORED) << elevation << ' ' << x << ' ' << y;
       }
     }
   }
@@ -81,44 +84,54 @@ double roughness(const Image& image) {
   return worst;
 }
 
+// A smooth picture's falls at least by half with twice the rows, a step's stays. Half of what eyes
+// tell apart, 2 per thousand, is no trouble.
+void expectSmooth(const Image& image, const Image& fine) {
+  EXPECT_EQ(image.badValues(), 0u);
+  EXPECT_GT(image.mean(), 0);
+  EXPECT_LT(roughness(fine), 0.6 * roughness(image) + 0.001);
+}
+
 // 7: fog of 50 m of sight, from just over the ground to just under its top.
 TEST(Reported, DenseFogNearTheGroundHasNoBands) {
-  SceneOptions options;
-  options.height = 96;
-  options.layers = WLK_LAYER_SKY | WLK_LAYER_FOG;
-  const HeadlessScene scene(options);
-  scene.setSky();
-  scene.setFog(0.08f, 30);
-  scene.setSun(35, 180);  // behind the eye
-  for (const double height : {0.01, 1.7, 29.0, 90.0}) {
+  const auto render = [](double height, uint32_t rows) {
+    SceneOptions options;
+    options.height = rows;
+    options.layers = WLK_LAYER_SKY | WLK_LAYER_FOG;
+    const HeadlessScene scene(options);
+    scene.setSky();
+    scene.setFog(0.08f, 30);
+    scene.setSun(35, 180);  // behind the eye
     scene.setCamera({0, height, 0}, 0, 0);
-    const Image image = scene.render();
-    EXPECT_EQ(image.badValues(), 0u) << height;
-    EXPECT_LT(roughness(image), 0.04) << height;  // from above its edge is 0.031
+    return scene.render();
+  };
+  for (const double height : {0.01, 1.7, 29.0, 90.0}) {
+    SCOPED_TRACE(height);
+    expectSmooth(render(height, 96), render(height, 192));
   }
 }
 
 // 16: a wall across the horizon has no stripe there.
 TEST(Reported, NoStripeOnObjectsAtTheHorizon) {
-  SceneOptions options;
-  options.height = 96;
-  const HeadlessScene scene(options);
-  scene.setSky();
-  scene.setSun(30, 140);
-  const auto camera = make<WlkCamera>();
-  const auto* m = camera.clipFromView;
-  for (const double distance : {2e3, 2e4, 1e5}) {
+  const auto render = [](double distance, uint32_t rows) {
+    SceneOptions options;
+    options.height = rows;
+    const HeadlessScene scene(options);
+    scene.setSky();
+    scene.setSun(30, 140);
+    const auto camera = make<WlkCamera>();
+    const auto* m = camera.clipFromView;
     const double depth = (static_cast<double>(m[10]) * -distance + static_cast<double>(m[14])) /
                          (static_cast<double>(m[11]) * -distance + static_cast<double>(m[15]));
-    const std::vector<float> pixels(size_t{options.width} * options.height,
-                                    static_cast<float>(depth));
+    const std::vector<float> pixels(size_t{options.width} * rows, static_cast<float>(depth));
     auto targets = make<WlkHeadlessTargets>();
     targets.depth = pixels.data();
     scene.setCamera({0, 100, 0}, 0, 0);
-    const Image image = scene.render(&targets);
-    EXPECT_EQ(image.badValues(), 0u);
-    EXPECT_GT(image.mean(), 0);
-    EXPECT_LT(roughness(image), 0.02) << distance;
+    return scene.render(&targets);
+  };
+  for (const double distance : {2e3, 2e4, 1e5}) {
+    SCOPED_TRACE(distance);
+    expectSmooth(render(distance, 96), render(distance, 192));
   }
 }
 
@@ -162,10 +175,9 @@ TEST(Reported, FogStaysWhereItIs) {
     scene.render();
     const Image image = scene.read(WLK_IMAGE_TRANSMITTANCE);
     const double depth = EXTINCTION * HEIGHT * std::exp(-y / HEIGHT);
-    // Floats, and a forward peak that counts as passing: at most all of the depth.
-    const double passes = static_cast<double>(image.at(4, 4)[0]);
-    EXPECT_GE(passes, std::exp(-depth) - 1e-5) << y;
-    EXPECT_LE(passes, std::exp(-0.3 * depth) + 1e-5) << y;
+    // Four half units of a float below 1: of the depth, its exponential, the volume's share and
+    // the product.
+    EXPECT_NEAR(static_cast<double>(image.at(4, 4)[0]), std::exp(-depth), 4 * std::exp2(-25)) << y;
   }
 }
 

@@ -78,7 +78,9 @@ FrameCounts EngineScene::renderFrame() {
   WlkResult result = WLK_SUCCESS;
   spy.run([&](VkCommandBuffer commands) {
     SpyDevice::counts() = {};
-    check(wlkVulkanCmdUpdate(context, commands));
+    if (update) {
+      check(wlkVulkanCmdUpdate(context, commands));
+    }
     counts.update = SpyDevice::counts();
     SpyDevice::counts() = {};
     result = wlkVulkanCmdRenderView(context, commands, view, &images);

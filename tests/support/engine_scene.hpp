@@ -37,6 +37,8 @@ class EngineScene : private SpiedEngine, public SceneBuilder {
   uint64_t frame() const { return frame_; }
   // Composites onto the target itself, which keeps what it has where nothing is drawn.
   bool inPlace = false;
+  // Frames record wlkVulkanCmdUpdate.
+  bool update = true;
   // A shadow map of the engine; both or none.
   const WlkLightShadow* lightShadow = nullptr;
   const WlkVulkanImage* shadowMap = nullptr;
