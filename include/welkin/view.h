@@ -170,7 +170,8 @@ typedef struct WlkQuality {
   /** Bits WLK_QUALITY_NO_SKIP, WLK_QUALITY_VOLUME_SHADOWS. Default 0. */
   uint64_t flags;
   /** With WLK_SCATTERING_ALL_ORDERS: edge of a cube with as many cells as the grid of a volume has
-   *  at most. 0 or [8, 128]. Default 0. */
+   *  at most. 0 or [8, 128]; wlkPrepare tells (LIMIT_EXCEEDED) what the device's storage buffers do
+   *  not hold: more than 72 where they are the 128 MiB that every device has. Default 0. */
   uint32_t volumeCells;
   /** WLK_CONTROL_*. Default LEVEL. */
   uint32_t control;

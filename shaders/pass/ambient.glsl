@@ -3,6 +3,7 @@
 #define real float
 #include "../interface/transport.glsl"
 #include "../interface/ambient.glsl"
+#include "late.glsl"
 #include "transport_rays.glsl"
 
 layout(set = 0, binding = 0, std140) uniform Volume { AmbientUniforms volume; };

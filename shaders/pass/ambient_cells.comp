@@ -26,7 +26,7 @@ void store(int level, int cell, float extinction, vec3 moments[4]) {
 void finest(int cell) {
   ivec3 size = 2 * volume.size[0].xyz;
   ivec3 corner = 2 * cellOf(volume.size[0].xyz, cell);
-  int taps = int(volume.peak.y);
+  int taps = late(int(volume.peak.y));
   vec4 beta = vec4(0.0f);
   for (int part = 0; part < 8; ++part) {
     ivec3 fine = corner + ivec3(part & 1, (part >> 1) & 1, part >> 2);
@@ -87,7 +87,7 @@ void main() {
   if (cell >= volume.size[level].w) {
     return;
   }
-  if (level == 0) {
+  if (late(level == 0)) {
     finest(cell);
   } else {
     coarser(level, cell);

@@ -41,7 +41,7 @@ void main() {
     direction += 1;
   } while (direction < AMBIENT_DIRECTIONS);
 
-  if ((push.flags & AMBIENT_ALONE) != 0u) {
+  if (late((push.flags & AMBIENT_ALONE) != 0u)) {
     vec3 mean = vec3(0.0f);
     for (int i = 0; i < AMBIENT_DIRECTIONS; ++i) {
       mean += directionAt(0, i).step_.w * volume.incoming[i].xyz;
@@ -50,7 +50,7 @@ void main() {
     return;
   }
   // The peak is a part of the whole phase function whose moments are all 1.
-  float rest = (push.flags & AMBIENT_WHOLE) != 0u ? volume.peak.x : 1.0f;
+  float rest = late((push.flags & AMBIENT_WHOLE) != 0u) ? volume.peak.x : 1.0f;
   vec3 moments[4];
   for (int degree = 0; degree < 4; ++degree) {
     moments[degree] = rest * kept[momentAt(level, degree, cell)].xyz + (1.0f - rest);

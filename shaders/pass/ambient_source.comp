@@ -12,7 +12,7 @@ void main() {
   if (cell >= volume.size[level].w) {
     return;
   }
-  bool corrected = (push.flags & AMBIENT_COARSER) != 0u;
+  bool corrected = late((push.flags & AMBIENT_COARSER) != 0u);
   ivec3 coarse = corrected ? volume.size[level + 1].xyz : ivec3(1);
   ivec3 stride = strideOf(coarse);
   vec3 at = 0.5f * (vec3(cellOf(volume.size[level].xyz, cell)) + 0.5f) - 0.5f;

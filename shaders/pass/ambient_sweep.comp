@@ -28,8 +28,9 @@ void main() {
   }
   ivec2 start = ivec2(ray % count.x, ray / count.x);
   int slices = size[d.axes.x];
-  vec3 incoming = (push.flags & AMBIENT_INCOMING) != 0u ? volume.incoming[direction].xyz
-                                                        : vec3(0.0f);
+  vec3 incoming = late((push.flags & AMBIENT_INCOMING) != 0u) ? volume.incoming[direction].xyz
+                                                              : vec3(0.0f);
+  bool alone = late((push.flags & AMBIENT_ALONE) != 0u);
   vec3 radiance = incoming;
   // The slab of a slice ends half-way to the next one, or where the ray leaves the grid; its source
   // changes as between its neighbours. So it is done when the next slice is known.
@@ -61,7 +62,7 @@ void main() {
                      emits.z * work[directedAt(level, direction, cells.z)].xyz +
                      emits.w * work[directedAt(level, direction, cells.w)].xyz) /
                     (emits.x + emits.y + emits.z + emits.w);
-      if ((push.flags & AMBIENT_ALONE) != 0u) {
+      if (alone) {
         next.source = vec3(0.0f);
       }
     }

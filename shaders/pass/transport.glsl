@@ -2,11 +2,13 @@
 // What the passes of the light grid share: its lists.
 #define real float
 #include "../interface/transport.glsl"
+#include "late.glsl"
 #include "transport_rays.glsl"
 
 layout(set = 0, binding = 0, std140) uniform Volume { TransportUniforms volume; };
 layout(set = 0, binding = 1, std430) buffer Work { float work[]; };
 layout(set = 0, binding = 2, std430) buffer Kept { float kept[]; };
+layout(set = 0, binding = 11, std430) buffer Swept { float swept[]; };
 layout(push_constant) uniform Push { TransportPush push; };
 
 // Lists of `kept`. Over all levels: extinction without the peak (1/m), light that is scattered
@@ -39,7 +41,7 @@ int coarseAt(int term, int cell) {
 }
 
 bool isLayer() {
-  return volume.travel.w > 0.0f;
+  return late(volume.travel.w > 0.0f);
 }
 // A layer's responses: of nodes, for light scattered twice and three times; of directions, twice;
 // moments of light scattered twice.
@@ -49,7 +51,8 @@ int responseAt(int node, int order) {
 const int RESPONSE_NODES = RESPONSE_ZENITHS * RESPONSE_AZIMUTHS;
 
 // Lists of `work`. Over all levels: what drives the source, the change of the source; of the level
-// in turn: source and radiance in each direction.
+// in turn: source in each direction, and alone in `swept`, so that neither is larger than devices
+// take, radiance.
 int driveAt(int level, int term, int cell) {
   return total() * term + volume.place[level].x + cell;
 }
@@ -60,8 +63,7 @@ int directedAt(int level, int direction, int cell) {
   return total() * (2 * TRANSPORT_TERMS) + volume.size[level].w * direction + cell;
 }
 int radianceAt(int level, int direction, int ray) {
-  return total() * (2 * TRANSPORT_TERMS) + volume.size[0].w * volume.place[0].y +
-         volume.size[level].w * direction + ray;
+  return volume.size[level].w * direction + ray;
 }
 
 // Where a dispatch is one of several: its place among all of the step's groups or rows of groups.

@@ -14,7 +14,7 @@ layout(set = 0, binding = 10) uniform sampler3D pages;
 #include "fields.glsl"
 
 float depthAt(int index) {
-  return work[radianceAt(0, 0, index)];
+  return swept[radianceAt(0, 0, index)];
 }
 
 void storeMoments(int level, int cell, vec4 moments, float fourth) {
@@ -32,7 +32,7 @@ vec4 momentsOf(int level, int cell) {
 void finest(int cell) {
   ivec3 size = 2 * volume.size[0].xyz;
   ivec3 corner = 2 * cellOf(volume.size[0].xyz, cell);
-  int taps = int(volume.peak.y);
+  int taps = late(int(volume.peak.y));
   vec4 beta = vec4(0.0f);
   float lit = 0.0f;
   float light = 0.0f;
@@ -110,7 +110,7 @@ void main() {
   if (cell >= volume.size[level].w) {
     return;
   }
-  if (level == 0) {
+  if (late(level == 0)) {
     finest(cell);
   } else {
     coarser(level, cell);

@@ -23,12 +23,12 @@ void main() {
     return;
   }
   ivec2 start = ivec2(ray % count.x, ray / count.x);
-  int slices = size[d.axes.x];
+  int slices = late(size[d.axes.x]);
   vec3 along = vec3(0.0f);  // of a slice's path, over the grid
   along[d.axes.x] = float(d.axes.w) / float(slices);
   along[d.axes.y] = d.step_.x / float(count.x);
   along[d.axes.z] = d.step_.y / float(count.y);
-  int taps = int(volume.peak.y);
+  int taps = late(int(volume.peak.y));
   float depth = 0.0f;
   int k = 0;
   do {
@@ -43,7 +43,7 @@ void main() {
           fieldExtinction(boxOf(at - along * (s.share * (float(i) + 0.5f) / float(taps))));
       depth += (beta.x + beta.y + beta.z + beta.w) * s.share * d.step_.z / float(taps);
     }
-    work[radianceAt(0, 0, k * count.x * count.y + ray)] = depth;  // 8 of its 26 shares
+    swept[radianceAt(0, 0, k * count.x * count.y + ray)] = depth;  // 8 of its 26 shares
     k += 1;
   } while (k < slices);
 }

@@ -19,8 +19,8 @@ void main() {
   if (cell >= volume.size[level].w) {
     return;
   }
-  bool second = (push.flags & TRANSPORT_SECOND_SWEEP) != 0u;
-  bool first = second || (push.flags & TRANSPORT_FIRST_SWEEP) != 0u;
+  bool second = late((push.flags & TRANSPORT_SECOND_SWEEP) != 0u);
+  bool first = second || late((push.flags & TRANSPORT_FIRST_SWEEP) != 0u);
   ivec3 place = cellOf(size, cell);
   float sum[TRANSPORT_TERMS];
   for (int term = 0; term < TRANSPORT_TERMS; ++term) {
@@ -36,10 +36,10 @@ void main() {
   do {
     TransportDirection d = directionAt(level, direction);
     Rays rays = raysAround(d, size, place);
-    float radiance = dot(rays.weight, vec4(work[radianceAt(level, direction, rays.index.x)],
-                                           work[radianceAt(level, direction, rays.index.y)],
-                                           work[radianceAt(level, direction, rays.index.z)],
-                                           work[radianceAt(level, direction, rays.index.w)]));
+    float radiance = dot(rays.weight, vec4(swept[radianceAt(level, direction, rays.index.x)],
+                                           swept[radianceAt(level, direction, rays.index.y)],
+                                           swept[radianceAt(level, direction, rays.index.z)],
+                                           swept[radianceAt(level, direction, rays.index.w)]));
     radiance *= shaped ? d.step_.w * volume.rows[FIRST_ROWS + direction * 3 + 2].w : d.step_.w;
     for (int row = 0; row < 4; ++row) {
       vec4 y = volume.rows[base + direction * stride + row];

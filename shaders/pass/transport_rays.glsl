@@ -71,15 +71,15 @@ RayStep rayStep(TransportDirection d, ivec2 count, ivec2 ray, int k) {
   RayStep s;
   s.at = vec2(u.y, v.y);
   s.enters = wu || wv || k == 0;
-  float fu = d.step_.x > 0.0f ? (u.y + 0.5f) / d.step_.x
-                              : (float(count.x) - 0.5f - u.y) / max(-d.step_.x, 1.0e-12f);
-  float fv = d.step_.y > 0.0f ? (v.y + 0.5f) / d.step_.y
-                              : (float(count.y) - 0.5f - v.y) / max(-d.step_.y, 1.0e-12f);
+  // Choices between numbers, not ways: see late.glsl.
+  vec2 at = s.at + 0.5f;
+  vec2 gone = mix(vec2(count) - at, at, greaterThan(d.step_.xy, vec2(0.0f))) /
+              max(abs(d.step_.xy), vec2(1.0e-12f));
   s.share = 1.0f;
   if (k == 0) {
     s.share = 0.5f;
   } else if (wu || wv) {
-    s.share = clamp(min(wu ? fu : 1.0f, wv ? fv : 1.0f), 0.0f, 1.0f);
+    s.share = clamp(min(wu ? gone.x : 1.0f, wv ? gone.y : 1.0f), 0.0f, 1.0f);
   }
   return s;
 }

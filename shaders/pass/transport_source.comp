@@ -13,7 +13,7 @@ void main() {
     return;
   }
   int directions = volume.place[level].y;
-  if ((push.flags & TRANSPORT_SECOND_SWEEP) != 0u) {
+  if (late((push.flags & TRANSPORT_SECOND_SWEEP) != 0u)) {
     bool layer = isLayer();
     vec4 a = vec4(kept[firstAt(0, cell)], kept[firstAt(1, cell)], kept[firstAt(2, cell)],
                   kept[firstAt(3, cell)]);
@@ -40,7 +40,7 @@ void main() {
     } while (of < directions);
     return;
   }
-  bool corrected = (push.flags & TRANSPORT_COARSER) != 0u;
+  bool corrected = late((push.flags & TRANSPORT_COARSER) != 0u);
   ivec3 coarse = corrected ? volume.size[level + 1].xyz : ivec3(1);
   ivec3 stride = strideOf(coarse);
   vec3 at = 0.5f * (vec3(cellOf(volume.size[level].xyz, cell)) + 0.5f) - 0.5f;

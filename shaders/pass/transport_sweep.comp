@@ -40,7 +40,7 @@ void main() {
   if (ray >= count.x * count.y) {
     return;
   }
-  bool first = (push.flags & TRANSPORT_FIRST_SWEEP) != 0u;
+  bool first = late((push.flags & TRANSPORT_FIRST_SWEEP) != 0u);
   ivec2 start = ivec2(ray % count.x, ray / count.x);
   int slices = size[d.axes.x];
   float radiance = 0.0f;
@@ -103,7 +103,7 @@ void main() {
         leaves = radiance * e + here.source * t * part;
         mean = radiance * weights.x + here.source * (1.0f - part);
       }
-      work[radianceAt(level, direction, (k - 1) * count.x * count.y + ray)] = mean;
+      swept[radianceAt(level, direction, (k - 1) * count.x * count.y + ray)] = mean;
       radiance = leaves;
     }
     before = here;

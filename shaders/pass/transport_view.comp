@@ -127,7 +127,7 @@ void main() {
   // Filters read the cell after the last one, too, with weight 0 or nearly so: what stands there
   // may be of another volume or no number.
   ivec3 room = imageSize(viewSource) / ivec3(1, 1, 2);
-  if (push.weight < 1.0f) {
+  if (late(push.weight < 1.0f)) {
     shown = mix(imageLoad(viewSource, place), shown, push.weight);
     all = mix(imageLoad(viewSource, place + ivec3(0, 0, room.z)), all, push.weight);
   }

@@ -70,7 +70,7 @@ VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t vol
                            slots * ((6 + 2 * more) * volumes + 2 * spread +
                                     2 * SURFACE_PICTURES * surfaces + 3 + more)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                           slots * ((9 + 4 * more) * volumes + 3 * spread +
+                           slots * ((10 + 4 * more) * volumes + 4 * spread +
                                     12 * SURFACE_PICTURES * surfaces + 4 + 3 * more)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
                            slots * ((3 + more) * volumes + spread + 5 + 2 * more)},
@@ -165,21 +165,31 @@ void makeSkyTables(vk::Device& device, const SceneFeatures& features, ViewResour
   }
 }
 
+void checkCells(const vk::Device& device, VkDeviceSize bytes, uint32_t cells) {
+  if (bytes > device.properties().limits.maxStorageBufferRange) {
+    fail(WLK_ERROR_LIMIT_EXCEEDED, WLK_STRUCT_QUALITY, "volumeCells",
+         "%u^3 cells of light exceed the device's storage buffers", cells);
+  }
+}
+
 void makeTransport(vk::Device& device, const SliceQuality& quality, uint32_t volumes,
                    ViewResources& r) {
   const TransportSizes sizes =
       transportSizes({quality.transportCells, quality.transportCells, quality.transportCells});
+  checkCells(device, std::max({sizes.workBytes, sizes.sweptBytes, sizes.keptBytes}),
+             quality.transportCells);
   const auto list = [&](VkDeviceSize bytes) {
     return vk::Buffer(device, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
   };
+  const auto work = [&] { return TransportWork{list(sizes.workBytes), list(sizes.sweptBytes)}; };
   const bool spread = r.transportLights > 1;
   if (!spread) {
-    r.transportWork = list(sizes.workBytes);
+    r.transportWork = work();
   }
   r.volumeLights.resize(volumes);
   for (VolumeLight& light : r.volumeLights) {
     if (spread) {
-      light.work = list(sizes.workBytes);
+      light.work = work();
     }
     for (uint32_t i = 0; i < r.transportLights; ++i) {
       light.grids[i].kept = list(sizes.keptBytes);
@@ -199,6 +209,7 @@ void makeAmbient(vk::Device& device, const SliceQuality& quality, uint32_t volum
                  ViewResources& r) {
   const uint32_t cells = quality.ambientCells;
   const AmbientSizes sizes = ambientSizes({cells, cells, cells});
+  checkCells(device, std::max(sizes.workBytes, sizes.keptBytes), cells);
   r.ambientWork = vk::Buffer(device, sizes.workBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
   r.ambientGrids.resize(volumes);
   for (TransportGrid& grid : r.ambientGrids) {

@@ -247,10 +247,16 @@ struct TransportGrid {
   std::vector<char> key;  // uniforms, volume and its version; empty: nothing yet
 };
 
+// Lists that the light inside a volume is computed in.
+struct TransportWork {
+  vk::Buffer sources;  // empty: none of its own
+  vk::Buffer swept;
+};
+
 // The sun's light inside a volume, where it is computed over several frames in several grids.
 struct VolumeLight {
   std::array<TransportGrid, SPREAD_LIGHTS> grids;  // the first alone where it is computed at once
-  vk::Buffer work;                                 // empty: the view's
+  TransportWork work;                              // empty: the view's
   LightSchedule schedule;
   glm::dvec3 toLight{0};  // in the frame that was recorded last
 };
@@ -338,7 +344,7 @@ struct ViewResources {
         slots(memory) {}
   vk::Image lightBuffer;
   vk::Image viewSource;          // what cells of the volume in turn scatter towards the eye
-  vk::Buffer transportWork;      // where light is computed at once: one volume at a time
+  TransportWork transportWork;   // where light is computed at once: one volume at a time
   uint32_t transportLights = 1;  // grids of each volume
   VkDeviceSize transportStride = 0;
   VkDeviceSize transportOffset = 0;

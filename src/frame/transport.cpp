@@ -229,7 +229,8 @@ TransportSizes transportSizes(const std::array<uint32_t, 3>& cells) {
   constexpr VkDeviceSize RESPONSES =
       VkDeviceSize{interface_::RESPONSE_ZENITHS} * interface_::RESPONSE_AZIMUTHS +
       TransportLayer::COUNT + TERMS;
-  sizes.workBytes = sizeof(float) * (TWO * TERMS * total + VkDeviceSize{TWO * DIRECTIONS} * finest);
+  sizes.workBytes = sizeof(float) * (TWO * TERMS * total + VkDeviceSize{DIRECTIONS} * finest);
+  sizes.sweptBytes = sizeof(float) * VkDeviceSize{DIRECTIONS} * finest;
   sizes.keptBytes =
       sizeof(float) * (VkDeviceSize{7 + TERMS} * total + TWO * FIRST * finest +
                        (TWO * FIRST + TERMS) * sizes.cells[1] + TWO * FIRST * RESPONSES);

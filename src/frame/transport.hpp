@@ -25,7 +25,9 @@ uint32_t transportImageEdge(uint32_t edge);
 // Cells per level, and bytes of the lists.
 struct TransportSizes {
   std::array<uint32_t, interface_::TRANSPORT_LEVELS> cells{};
-  VkDeviceSize workBytes = 0;  // while light is computed; one volume at a time
+  // While light is computed, one volume at a time: sources, and radiance.
+  VkDeviceSize workBytes = 0;
+  VkDeviceSize sweptBytes = 0;
   VkDeviceSize keptBytes = 0;  // of each volume
 };
 TransportSizes transportSizes(const std::array<uint32_t, 3>& cells);

@@ -165,7 +165,7 @@ TransportCommands recordTransport(const vk::Device& device, const vk::Pipelines&
   const auto use = [&](uint32_t index) {
     const uint32_t place = planned.index * r.transportLights + index;
     const TransportGrid& grid = light.grids[index];
-    const vk::Buffer& work = light.work ? light.work : r.transportWork;
+    const TransportWork& work = light.work.sources ? light.work : r.transportWork;
     BoundSet& set = r.slots[in.slot].transport[place];
     const VkDeviceSize offset =
         in.slot * r.slotStride + r.transportOffset + place * r.transportStride;
@@ -173,8 +173,10 @@ TransportCommands recordTransport(const vk::Device& device, const vk::Pipelines&
                 sizeof(TransportUniforms));
     bindings.buffer(set, vk::BIND_TRANSPORT_UNIFORMS, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
                     r.uniforms.handle(), offset, sizeof(TransportUniforms));
-    bindings.buffer(set, vk::BIND_TRANSPORT_WORK, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, work.handle(),
-                    0, work.size());
+    bindings.buffer(set, vk::BIND_TRANSPORT_WORK, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                    work.sources.handle(), 0, work.sources.size());
+    bindings.buffer(set, vk::BIND_TRANSPORT_SWEPT, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                    work.swept.handle(), 0, work.swept.size());
     bindings.buffer(set, vk::BIND_TRANSPORT_KEPT, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                     grid.kept.handle(), 0, grid.kept.size());
     bindings.buffer(set, vk::BIND_TRANSPORT_PAIRS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,

@@ -168,6 +168,7 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
     transport[BIND_TRANSPORT_UNIFORMS].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     transport[BIND_TRANSPORT_WORK].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     transport[BIND_TRANSPORT_KEPT].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    transport[BIND_TRANSPORT_SWEPT].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     transport[BIND_TRANSPORT_PAIRS].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     transport[BIND_TRANSPORT_TARGET].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     transport[BIND_TRANSPORT_VIEW].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;

@@ -176,6 +176,23 @@ TEST(Limits, OfTheQualityAreChecked) {
   victim.expectUnchanged();
 }
 
+// Light inside volumes needs lists that lavapipe does not hold; nothing has changed then.
+TEST(Limits, CellsThatTheDeviceDoesNotHoldAreRefused) {
+  SceneOptions options;
+  options.width = options.height = 8;
+  const HeadlessScene scene(options);
+  scene.setSun(30, 20);
+  scene.addBall(0.01f);
+  const Image before = scene.render();
+  auto quality = make<WlkQuality>();
+  quality.volumeCells = 128;  // 50 floats each in a list: 400 MiB
+  check(wlkSetQuality(scene.context, scene.view, &quality));
+  EXPECT_FAILS(wlkPrepare(scene.context), WLK_ERROR_LIMIT_EXCEEDED, "volumeCells");
+  scene.setQuality(options.level);
+  EXPECT_TRUE(scene.render() == before);
+  EXPECT_TRUE(scene.messages().empty()) << scene.messages().front();
+}
+
 TEST(Limits, OfMediaLightsAndContextsAreChecked) {
   VictimScene& victim = VictimScene::get();
   const WlkContext c = victim.scene.context;
@@ -338,7 +355,7 @@ TEST(Limits, StatisticsReportAnArrayThatIsTooShort) {
                              passes.data()),
             WLK_INCOMPLETE);
   EXPECT_EQ(room, count);
-  EXPECT_LE(passes[1].pass, uint32_t{WLK_PASS_COMPOSITE});
+  EXPECT_NE(passes[1].pass, 0x7f7f7f7fu);
   EXPECT_EQ(passes[2].pass, 0x7f7f7f7fu) << "written past the array's room";
 }
 
