@@ -71,6 +71,7 @@ ErrorInput errorInput(const WlkContext_T& c, const ViewState& view, const PlanIn
   in.eyeFromNdc = view.eyeFromNdc;
   // Of several lights the first, which is the brightest as a rule.
   in.light = plan.lights.count > 0;
+  in.ambient = input.ambient || (!plan.air && !plan.fog);
   in.toLight = plan.lights.light[0].toLight;
   in.lightAngularRadius = plan.lights.light[0].angularRadius;
   in.eye = input.eye;

@@ -56,9 +56,23 @@ double leftOfFog(double first) {
 // In volumes what the grid of their light leaves, whatever the view: directions, and cells that are
 // deep. Fitted to the root mean squares of spheres of optical radius 2 to 30 at every level
 // (docs/results/volume-errors.csv); its test allows a factor of 2.
-constexpr double ALL_ORDERS_VOLUME = 0.045;
+constexpr double ALL_ORDERS_VOLUME = 0.035;
 constexpr double ALL_ORDERS_CELLS = 0.4;
 constexpr double ALL_ORDERS_CELL_POWER = 1.5;
+// And light of sky and ground on volumes, where it is left out: `share` is what they bring over
+// what the light does. It counts for less where the light itself scatters much: thin bodies towards
+// the light, thick ones on their lit side. Not fitted: factors of the phase functions' and of a
+// cloud's two sides, between them in the logarithm.
+constexpr double AMBIENT_THIN_WITH = 0.2;
+constexpr double AMBIENT_THIN_AGAINST = 4.0;
+constexpr double AMBIENT_THICK_WITH = 10.0;  // against the light: 1
+double leftOfAmbient(double share, double with, double reducedDepth) {
+  const double thin =
+      with * std::log(AMBIENT_THIN_WITH) + (1 - with) * std::log(AMBIENT_THIN_AGAINST);
+  const double thick = with * std::log(AMBIENT_THICK_WITH);
+  const double depth = reducedDepth / (1 + reducedDepth);
+  return missing(share * std::exp((1 - depth) * thin + depth * thick));
+}
 double leftOfVolume(double single, double reducedDepthOfCell) {
   const double cells = ALL_ORDERS_CELLS * std::pow(reducedDepthOfCell, ALL_ORDERS_CELL_POWER);
   return std::min(single, std::min(std::hypot(ALL_ORDERS_VOLUME, cells), 1.0));
@@ -103,6 +117,19 @@ std::array<double, 2> crossBox(const glm::dmat3& boxFromWorld, const glm::dvec3&
   return {entry, exit};
 }
 
+// Light of sky and ground that meets a body from all sides over the light that it casts a shadow
+// in: half of what the air takes from the light comes down as the sky's, and of all that reaches
+// the ground its albedo comes back.
+double ambientShare(double sunMu, double albedo, const Color& sunlight) {
+  double share = 0;
+  for (const double passed : sunlight) {
+    const double sky = 0.5 * (1 - passed);
+    share +=
+        2 * std::max(sunMu, 0.0) * (sky + albedo * (passed + sky)) / std::max(passed, 1e-6) / 3;
+  }
+  return std::min(share, 10.0);
+}
+
 // A volume with what does not depend on the ray.
 class Body {
  public:
@@ -144,7 +171,7 @@ class Body {
     double share = 0;
     double scattering = 0;
   };
-  Seen along(const glm::dvec3& direction, const ErrorInput& in) const {
+  Seen along(const glm::dvec3& direction, const ErrorInput& in, double ambient) const {
     const std::array<double, 2> cut = crossBox(boxFromWorld_, eyeInBox_, direction);
     if (!(cut[1] > cut[0])) {
       return {};
@@ -163,7 +190,8 @@ class Body {
     seen.scattering = missing(volume_.albedo * scale * std::pow(reduced, power));
     if (in.quality.transport) {
       seen.scattering =
-          leftOfVolume(seen.scattering, both * volume_.gap / in.quality.transportCells);
+          std::hypot(leftOfVolume(seen.scattering, both * volume_.gap / in.quality.transportCells),
+                     leftOfAmbient(volume_.albedo * ambient, with, both * volume_.gap));
     }
     return seen;
   }
@@ -219,6 +247,8 @@ ErrorParts meanSquares(const ErrorInput& in, std::span<const uint32_t> slabs,
     }
   }
 
+  const double ambient = in.ambient ? 0 : ambientShare(sunMu, albedo, sunlight);
+
   for (int y = 0; y < GRID; ++y) {
     for (int x = 0; x < GRID; ++x) {
       const glm::dvec4 ndc((x + 0.5) * 2.0 / GRID - 1, (y + 0.5) * 2.0 / GRID - 1, 0.5, 1);
@@ -227,7 +257,7 @@ ErrorParts meanSquares(const ErrorInput& in, std::span<const uint32_t> slabs,
       double free = 1;  // share of the pixel that no volume hides
       for (const ErrorVolume& volume : in.volumes) {
         const Body body(volume, in);
-        const Body::Seen seen = body.along(direction, in);
+        const Body::Seen seen = body.along(direction, in, ambient);
         const double share = free * seen.share;
         squares[WLK_APPROXIMATION_VOLUME_SCATTERING] += share * seen.scattering * seen.scattering;
         for (size_t i = 0; share > 0 && i < slabs.size(); ++i) {

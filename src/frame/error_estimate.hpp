@@ -25,9 +25,10 @@ struct ErrorVolume {
 
 struct ErrorInput {
   WlkPlanet planet{};
-  AirInput air;        // what the view draws of it; 0 where it does not
-  double fogGap = 1;   // 1 - mean cosine
-  bool light = false;  // nothing is wrong in the dark
+  AirInput air;          // what the view draws of it; 0 where it does not
+  double fogGap = 1;     // 1 - mean cosine
+  bool light = false;    // nothing is wrong in the dark
+  bool ambient = false;  // volumes have light of sky and ground, or there is none
   glm::dvec3 toLight{0, 1, 0};
   double lightAngularRadius = 0;
   glm::dvec3 eye{0};

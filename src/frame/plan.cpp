@@ -287,11 +287,11 @@ SliceQuality resolveQuality(const WlkQuality& quality) {
   // Points of the measured front of time and error (docs/accuracy-and-performance.md). Poisson
   // counts cost what the paper's whole numbers do, with less error: every level takes them.
   constexpr uint32_t ALIGNED = WLK_SLICING_LIGHT_ALIGNED;
-  constexpr uint32_t FORWARD = WLK_SCATTERING_FORWARD;
-  constexpr std::array<Level, 4> LEVELS{{{32, 32, 96, ALIGNED, FORWARD, 16},
-                                         {64, 64, 160, ALIGNED, FORWARD, 24},
-                                         {128, 64, 256, ALIGNED, FORWARD, 32},
-                                         {256, 64, 448, ALIGNED, FORWARD, 64}}};
+  constexpr uint32_t ALL = WLK_SCATTERING_ALL_ORDERS;
+  constexpr std::array<Level, 4> LEVELS{{{32, 32, 96, ALIGNED, ALL, 16},
+                                         {64, 64, 160, ALIGNED, ALL, 24},
+                                         {128, 64, 256, ALIGNED, ALL, 32},
+                                         {256, 64, 448, ALIGNED, ALL, 64}}};
   const Level& level = LEVELS[quality.level];
   const auto either = [](uint32_t chosen, uint32_t usual) { return chosen != 0 ? chosen : usual; };
   const uint32_t scattering = either(quality.scattering, level.scattering);

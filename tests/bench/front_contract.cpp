@@ -52,8 +52,14 @@ std::string describe(const Ordered& row, const std::string& figure, double value
 std::vector<Ordered> measureLevels(const Case& one, const References& references) {
   World world(one, false);
   const host::RasterResult opaque = world.makeOpaque();
+  // Slabs and texels answer for themselves with forward scattering, whose limit is no grid's.
+  std::vector<Method> methods = levelMethods();
+  if (references.converged.picture) {
+    const std::vector<Method> forward = forwardMethods();
+    methods.insert(methods.end(), forward.begin(), forward.end());
+  }
   std::vector<Ordered> rows;
-  for (const Method& method : levelMethods()) {
+  for (const Method& method : methods) {
     const WlkView view = world.addView(qualityOf(method));
     world.prepare();
     world.render(view, opaque);
@@ -68,10 +74,10 @@ std::vector<Ordered> measureLevels(const Case& one, const References& references
                      {"invocations", counts.invocations},
                      {"nonFinitePixels", counts.nonFinite}}},
                    {"errors", Ordered::object()}};
-    if (references.all.picture) {
+    if (method.isLevel && references.all.picture) {
       row["errors"]["truth"] = contractErrors(errorsOf(picture, references.all, one));
     }
-    if (references.converged.picture) {
+    if (!method.isLevel) {
       row["errors"]["converged"] = contractErrors(errorsOf(picture, references.converged, one));
     }
     rows.push_back(std::move(row));
@@ -82,7 +88,7 @@ std::vector<Ordered> measureLevels(const Case& one, const References& references
 host::Image convergedPicture(const Case& one) {
   World world(one, false);
   const host::RasterResult opaque = world.makeOpaque();
-  const Settings fine = convergedSettings(levelSettings(WLK_QUALITY_HIGH));
+  const Settings fine = convergedSettings(forwardMethods()[WLK_QUALITY_HIGH].settings);
   const WlkView view = world.addView(explicitQuality(fine));
   world.prepare();
   world.render(view, opaque);

@@ -91,6 +91,8 @@ const char* scatteringName(uint32_t scattering) {
       return "single";
     case WLK_SCATTERING_FORWARD_INTEGER:
       return "integer";
+    case WLK_SCATTERING_ALL_ORDERS:
+      return "all-orders";
     default:
       return "forward";
   }
@@ -100,7 +102,7 @@ Settings levelSettings(uint32_t level) {
   constexpr std::array<std::array<uint32_t, 2>, LEVEL_COUNT> LEVELS = {
       {{32, 96}, {64, 160}, {128, 256}, {256, 448}}};
   const auto& [slices, light] = LEVELS.at(level);
-  return {level, slices, 0, light, false, WLK_SCATTERING_FORWARD, false};
+  return {level, slices, 0, light, false, WLK_SCATTERING_ALL_ORDERS, false};
 }
 
 WlkQuality explicitQuality(const Settings& settings) {
@@ -111,6 +113,7 @@ WlkQuality explicitQuality(const Settings& settings) {
   quality.lightBufferSize = settings.lightBufferSize;
   quality.slicing = settings.halfAngle ? HALF : ALIGNED;
   quality.scattering = settings.scattering;
+  quality.volumeCells = settings.volumeCells;
   return quality;
 }
 
@@ -131,6 +134,7 @@ Settings convergedSettings(const Settings& settings) {
   converged.batchSize = 64;
   converged.lightBufferSize = 1024;
   converged.halfAngle = false;  // both arrangements have one limit
+  converged.volumeCells = 64;   // the finest level's: what is left of it, other solvers tell
   return converged;
 }
 
@@ -142,8 +146,22 @@ std::vector<Method> levelMethods() {
   return methods;
 }
 
+std::vector<Method> forwardMethods() {
+  std::vector<Method> methods;
+  for (uint32_t level = 0; level < LEVEL_COUNT; ++level) {
+    Method method{std::string("forward-") + levelName(level), false, levelSettings(level)};
+    method.settings.scattering = FORWARD;
+    methods.push_back(method);
+  }
+  return methods;
+}
+
 std::vector<Method> methodsFor(const Case& one, bool hasVolumes, bool quick) {
   std::vector<Method> methods = levelMethods();
+  if (hasVolumes) {
+    const std::vector<Method> forward = forwardMethods();
+    methods.insert(methods.end(), forward.begin(), forward.end());
+  }
   for (const Variation& variation : VARIATIONS) {
     // Of a sky alone only the orders of scattering make a difference.
     const bool tells = hasVolumes || variation.name == std::string_view("single");

@@ -24,6 +24,7 @@ struct Settings {
   bool halfAngle = false;
   uint32_t scattering = WLK_SCATTERING_FORWARD;
   bool analytic = false;
+  uint32_t volumeCells = 0;  // 0: the level's
 };
 
 struct Method {
@@ -54,5 +55,8 @@ std::vector<Method> methodsFor(const Case& one, bool hasVolumes, bool quick);
 
 /// The four levels.
 std::vector<Method> levelMethods();
+
+/// Slabs and texels of the four levels with forward scattering.
+std::vector<Method> forwardMethods();
 
 }  // namespace bench

@@ -223,6 +223,7 @@ TEST_F(LightStoreBudget, WhatWouldNeedTooMuchMemoryIsDrawnInBatches) {
 TEST_F(LightStoreBudget, VolumesThatFindNoRoomLeftAreDrawnInBatches) {
   auto quality = make<WlkQuality>();
   quality.level = WLK_QUALITY_LOW;
+  quality.scattering = WLK_SCATTERING_FORWARD;
   quality.sliceCount = 1000;
   quality.lightBufferSize = 192;  // 295 MiB with two channels: one of 512
   for (int i = 0; i < 2; ++i) {

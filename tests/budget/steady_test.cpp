@@ -145,6 +145,7 @@ TEST(SteadyFrame, TheBudgetOfAFrameIsExact) {
   for (const auto& [slices, batch] : {std::pair{32u, 32u}, {32u, 8u}, {33u, 8u}, {16u, 1u}}) {
     auto quality = make<WlkQuality>();
     quality.level = WLK_QUALITY_LOW;
+    quality.scattering = WLK_SCATTERING_FORWARD;
     quality.sliceCount = slices;
     quality.batchSize = batch;
     ASSERT_EQ(wlkSetQuality(scene.context, scene.view, &quality), WLK_SUCCESS);

@@ -191,6 +191,7 @@ WlkView SceneBuilder::addView(const SceneOptions& options) const {
   check(wlkCreateView(context, &info, &made));
   auto quality = make<WlkQuality>();
   quality.level = options.level;
+  quality.scattering = options.scattering;
   quality.flags = options.qualityFlags;
   check(wlkSetQuality(context, made, &quality));
   return made;
@@ -219,6 +220,7 @@ void SceneBuilder::setCamera(const std::array<double, 3>& position, double yaw_d
 void SceneBuilder::setQuality(uint32_t level, uint64_t flags) const {
   auto quality = make<WlkQuality>();
   quality.level = level;
+  quality.scattering = options_.scattering;
   quality.flags = flags;
   check(wlkSetQuality(context, view, &quality));
 }

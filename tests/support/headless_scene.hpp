@@ -43,6 +43,7 @@ struct SceneOptions {
   uint32_t targetFormat = WLK_TARGET_RGBA32_FLOAT;
   uint64_t layers = WLK_LAYER_ALL;
   uint32_t level = WLK_QUALITY_LOW;
+  uint32_t scattering = WLK_SCATTERING_DEFAULT;
   uint64_t qualityFlags = 0;
   WlkAllocator allocator{};
 };

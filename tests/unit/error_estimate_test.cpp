@@ -91,6 +91,11 @@ TEST(ErrorEstimate, GrowsWithWhatIsLeftOut) {
   EXPECT_LT(estimateError(in)[WLK_APPROXIMATION_SKY], 0.01) << "all orders";
   std::vector<ErrorVolume> volumes{cloud()};
   in.volumes = volumes;
+  const double sunOnly = estimateError(in)[WLK_APPROXIMATION_VOLUME_SCATTERING];
+  in.ambient = true;
+  EXPECT_LT(estimateError(in)[WLK_APPROXIMATION_VOLUME_SCATTERING], sunOnly);
+  in.quality.transport = false;
+  in.quality.forwardScattering = true;
   const ErrorParts forward = estimateError(in);
   EXPECT_GT(forward[WLK_APPROXIMATION_VOLUME_SCATTERING], 0.0);
   ErrorInput single = in;
@@ -126,6 +131,7 @@ TEST(ErrorEstimate, FollowsTheGridOfAllOrders) {
   constexpr double BOX = 2.5;  // radii
   ErrorInput in = clearDay();
   in.air = AirInput{};
+  in.ambient = true;  // there is none
   in.eyeFromNdc = rays(0.01);
   for (const Measured& one : SPHERES) {
     ErrorVolume sphere = cloud();
@@ -137,6 +143,7 @@ TEST(ErrorEstimate, FollowsTheGridOfAllOrders) {
     const std::vector<ErrorVolume> volumes{sphere};
     in.volumes = volumes;
     in.quality = level(WLK_QUALITY_ULTRA);
+    in.quality.transport = false;
     in.quality.forwardScattering = true;
     const double first = estimateError(in)[WLK_APPROXIMATION_VOLUME_SCATTERING];
     in.quality.forwardScattering = false;
