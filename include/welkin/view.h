@@ -104,7 +104,7 @@ enum {
 };
 
 enum {
-  WLK_SCATTERING_DEFAULT = 0,
+  WLK_SCATTERING_DEFAULT = 0, /* ALL_ORDERS on every level */
   /** Once-scattered light only, in air and fog as well. */
   WLK_SCATTERING_SINGLE = 1,
   /** Forward scattering in volumes, [R04] Eq. 20-26 as corrected; all orders in air and fog. */
@@ -169,9 +169,8 @@ typedef struct WlkQuality {
   uint32_t scattering;
   /** Bits WLK_QUALITY_NO_SKIP, WLK_QUALITY_VOLUME_SHADOWS. Default 0. */
   uint64_t flags;
-  /** With WLK_SCATTERING_ALL_ORDERS: edge of a cube with as many cells as the grid of a volume has
-   *  at most. 0 or [8, 128]; wlkPrepare tells (LIMIT_EXCEEDED) what the device's storage buffers do
-   *  not hold: more than 72 where they are the 128 MiB that every device has. Default 0. */
+  /** With ALL_ORDERS: edge of a cube with as many cells as the grid of a volume has at most. 0 or
+   *  [8, 128], 72 where storage buffers are the least 128 MiB (wlkPrepare). Default 0. */
   uint32_t volumeCells;
   /** WLK_CONTROL_*. Default LEVEL. */
   uint32_t control;
