@@ -54,6 +54,6 @@ struct FrameUniforms {
   // the slices less one.
   vec4 froxels;
   // First and last slice in which volumes are marched; 1 where their images, or that of the
-  // volumes' distance, have half floats.
+  // volumes' distance, have half floats; 1 where the bare planet is drawn.
   vec4 froxelRange;
 };

@@ -155,16 +155,14 @@ void main() {
   uint layer = FROXELS ? gl_WorkGroupID.z + uint(frame.froxelRange.x) : 0u;
   uint index = (layer * uint(frame.viewport.y) + pixel.y) * uint(frame.viewport.x) + pixel.x;
   vec3 direction = pixelDirection(frame, vec2(pixel));
-  float surface = LONGEST_RAY * 100.0f;
+  float surface = INFINITE_DISTANCE;
   if (DEPTH_ENABLED) {
     // The last second pixel may lie outside of the view, by one.
     uvec2 inside = SECONDS ? min(pixel, uvec2(frame.viewport.xy) - 1u) : pixel;
     float d = texelFetch(depthImage, ivec2(inside), 0).x;
     surface = surfaceDistance(frame, vec2(pixel), d);
   }
-  if (FROXELS) {
-    surface = froxelDistance(frame, layer);
-  }
+  surface = FROXELS ? froxelDistance(frame, layer) : endOfRay(frame, direction, surface);
 
   March m;
   m.boxStep = (volume.boxFromEye * vec4(direction, 0.0f)).xyz;

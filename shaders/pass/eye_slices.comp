@@ -118,14 +118,12 @@ void main() {
   uint layer = FROXELS ? gl_WorkGroupID.z + uint(frame.froxelRange.x) : 0u;
   uint index = (layer * uint(frame.viewport.y) + pixel.y) * uint(frame.viewport.x) + pixel.x;
   vec3 direction = pixelDirection(frame, vec2(pixel));
-  float surface = LONGEST_RAY * 100.0f;
+  float surface = INFINITE_DISTANCE;
   if (DEPTH_ENABLED) {
     float d = texelFetch(depthImage, ivec2(pixel), 0).x;
     surface = surfaceDistance(frame, vec2(pixel), d);
   }
-  if (FROXELS) {
-    surface = froxelDistance(frame, layer);
-  }
+  surface = FROXELS ? froxelDistance(frame, layer) : endOfRay(frame, direction, surface);
 
   // Everything on the ray is affine in the distance t (m).
   vec3 boxOrigin = volume.boxFromEye[3].xyz;

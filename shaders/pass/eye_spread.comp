@@ -70,7 +70,7 @@ vec2 endOf(uvec2 pixel) {
   float d = texelFetch(depthImage, ivec2(pixel), 0).x;
   vec3 along = (volume.boxFromEye * vec4(direction, 0.0f)).xyz;
   Span span = rayBox(volume.boxFromEye[3].xyz, along, vec3(0.0f), vec3(1.0f));
-  span.end = min(span.end, surfaceDistance(frame, vec2(pixel), d));
+  span.end = min(span.end, endOfRay(frame, direction, surfaceDistance(frame, vec2(pixel), d)));
   return span.end > span.begin ? vec2(span.end, span.begin) : vec2(0.0f);
 }
 

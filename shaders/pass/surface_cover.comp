@@ -15,12 +15,16 @@ layout(set = 0, binding = 5) uniform sampler2D depthImage;
 
 // Depth in steps of what hides the rest.
 uint surfaceLimit(ivec2 pixel) {
-  if (!DEPTH_ENABLED) {
+  vec3 direction = pixelDirection(frame, vec2(pixel));
+  float end = INFINITE_DISTANCE;
+  if (DEPTH_ENABLED) {
+    end = surfaceDistance(frame, vec2(pixel), texelFetch(depthImage, pixel, 0).x);
+  }
+  end = endOfRay(frame, direction, end);
+  if (end >= INFINITE_DISTANCE) {
     return 0xffffffffu;
   }
-  float d = texelFetch(depthImage, pixel, 0).x;
-  float along = dot(pixelDirection(frame, vec2(pixel)), surface.axis.xyz);
-  float depth = surfaceDistance(frame, vec2(pixel), d) * along;
+  float depth = end * dot(direction, surface.axis.xyz);
   return uint(clamp((depth - surface.steps.x) * surface.steps.y, 0.0f, surface.steps.z) + 0.5f);
 }
 

@@ -188,6 +188,7 @@ void fillFrame(const AirState& air, const SkyLightState& sky, const ViewState& v
   const PixelRect& rect = view.plan.volumeRect;
   out.volumeRect = {static_cast<float>(rect.x0), static_cast<float>(rect.y0),
                     static_cast<float>(rect.x1), static_cast<float>(rect.y1)};
+  out.froxelRange.w = view.plan.ground ? 1.0f : 0.0f;
   fillSky(air, frame.altitude, view.plan, sky.now, out);
 }
 
