@@ -14,6 +14,8 @@ constexpr double NEAR = 0.1;  // of the default camera, whose depth is reversed 
 SceneOptions square() {
   SceneOptions options;
   options.width = options.height = DistanceScene::SIZE;
+  // The eye stands on the ground, under which the volumes reach.
+  options.layers = WLK_LAYER_ALL & ~uint64_t{WLK_LAYER_GROUND};
   return options;
 }
 
