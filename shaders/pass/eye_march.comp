@@ -56,6 +56,7 @@ const bool LISTED = RAYS == RAYS_OF_LIST;
 
 #include "../interface/sky_table.glsl"
 #include "ray.glsl"
+#include "ray_end.glsl"
 #include "fog_curve.glsl"
 #include "fields.glsl"
 #include "leaps.glsl"

@@ -48,6 +48,7 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "../interface/sky_table.glsl"
 #include "ray.glsl"
+#include "ray_end.glsl"
 #include "fog_curve.glsl"
 #include "fields.glsl"
 #include "air_column.glsl"

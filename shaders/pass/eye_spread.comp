@@ -24,6 +24,7 @@ layout(set = 0, binding = 19, std430) buffer Distances { vec4 distances[]; };
 layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "ray.glsl"
+#include "ray_end.glsl"
 #include "second_pixels.glsl"
 
 // Of differences over 16, in parts of the largest radiance around, of the transmittance in parts of

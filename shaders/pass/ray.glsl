@@ -20,15 +20,6 @@ float surfaceDistance(FrameUniforms frame, vec2 pixel, float d) {
   return reach / w;
 }
 
-// Where rays of volumes end: at the engine's surface, or on the bare planet where that is drawn.
-float endOfRay(FrameUniforms frame, vec3 direction, float surface) {
-  if (surface < INFINITE_DISTANCE || frame.froxelRange.w == 0.0f) {
-    return surface;
-  }
-  float ground = groundDistance(frame.eye.w, dot(direction, frame.eye.xyz), frame.fog.w);
-  return ground >= 0.0f ? ground : surface;
-}
-
 // Distance of a slice of froxels. m.
 float froxelDistance(FrameUniforms frame, uint slice) {
   return frame.froxels.x * pow(float(slice) * frame.froxels.z, frame.froxels.y);

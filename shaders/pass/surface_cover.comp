@@ -12,9 +12,16 @@ layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
 layout(set = 0, binding = 5) uniform sampler2D depthImage;
 #include "surface_mesh.glsl"
 #include "ray.glsl"
+#include "ray_end.glsl"
+
+// In a view, not in a light map.
+layout(constant_id = 6) const bool IN_VIEW = true;
 
 // Depth in steps of what hides the rest.
 uint surfaceLimit(ivec2 pixel) {
+  if (!IN_VIEW) {
+    return 0xffffffffu;
+  }
   vec3 direction = pixelDirection(frame, vec2(pixel));
   float end = INFINITE_DISTANCE;
   if (DEPTH_ENABLED) {

@@ -35,9 +35,10 @@ vk::PipelineKey spreadKey(bool depth, bool distance) {
   return key;
 }
 
-vk::PipelineKey surfaceCoverKey(bool depth) {
+vk::PipelineKey surfaceCoverKey(bool view, bool depth) {
   vk::PipelineKey key{vk::Pass::SurfaceCover, VK_FORMAT_UNDEFINED, {}};
   key.constants[5] = depth;
+  key.constants[6] = view;
   return key;
 }
 
@@ -126,8 +127,9 @@ static void prepareSurfaces(vk::Pipelines& pipelines, const ViewState& view,
                             const SliceQuality& quality, const SurfaceVariant& usual) {
   pipelines.prepare(surfaceFacesKey());
   pipelines.prepare(surfaceCellsKey());
+  pipelines.prepare(surfaceCoverKey(false, false));
   for (const bool either : {false, true}) {
-    pipelines.prepare(surfaceCoverKey(either));
+    pipelines.prepare(surfaceCoverKey(true, either));
     pipelines.prepare(surfaceMapKey(either));
     pipelines.prepare(surfaceShellKey(either));
   }

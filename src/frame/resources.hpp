@@ -64,7 +64,7 @@ struct SurfaceVariant {
   uint32_t air;  // Plan::airKind
   bool fog, light, allLight, distance, ambient;
 };
-vk::PipelineKey surfaceCoverKey(bool depth);
+vk::PipelineKey surfaceCoverKey(bool view, bool depth);
 vk::PipelineKey surfaceFacesKey();
 vk::PipelineKey surfaceCellsKey();
 vk::PipelineKey surfaceShellKey(bool means);

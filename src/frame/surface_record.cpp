@@ -123,7 +123,7 @@ class SurfaceRecorder {
     clear(resources().surfaceCover, sizeof(SurfaceCover) * light.size * light.size);
     clear(resources().surfaceFaces, sizeof(SurfaceFaces) * light.size * light.size);
     orderClears();
-    triangles(surfaceCoverKey(false), uniforms, stats, index_);
+    triangles(surfaceCoverKey(false, false), uniforms, stats, index_);
     c_.orderShaders();
     triangles(surfaceFacesKey(), uniforms, stats, index_);
     recordLevels(light.size, stats);
@@ -194,7 +194,8 @@ class SurfaceRecorder {
     if (pixels > 0) {
       clear(resources().surfaceCover, sizeof(SurfaceCover) * pixels);
       orderClears();
-      triangles(surfaceCoverKey(static_cast<bool>(targets_.depth)), uniforms, stats, index_ + 1);
+      triangles(surfaceCoverKey(true, static_cast<bool>(targets_.depth)), uniforms, stats,
+                index_ + 1);
     }
     c_.orderShaders();
     SliceConstants push{};
@@ -301,7 +302,7 @@ void findSurfacePipelines(const FrameCommands& commands, const ViewTargets& targ
   }
   const RecordSurface& surface = commands.in.surfaces[planned.index];
   if (planned.lit || planned.ambient) {
-    commands.find(surfaceCoverKey(false));
+    commands.find(surfaceCoverKey(false, false));
     commands.find(surfaceFacesKey());
     commands.find(surfaceMapKey(false));
     commands.find(surfaceMapKey(true));
@@ -309,7 +310,7 @@ void findSurfacePipelines(const FrameCommands& commands, const ViewTargets& targ
     commands.find(surfaceShellKey(false));
     commands.find(surfaceShellKey(true));
   }
-  commands.find(surfaceCoverKey(static_cast<bool>(targets.depth)));
+  commands.find(surfaceCoverKey(true, static_cast<bool>(targets.depth)));
   commands.find(shadeKeyOf(commands, targets, planned));
   if (surface.light == nullptr || (planned.ambient && surface.up == nullptr)) {
     fail(WLK_ERROR_NOT_PREPARED, 0, "view", "call wlkPrepare before recording");

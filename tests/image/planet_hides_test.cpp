@@ -85,6 +85,22 @@ TEST_P(PlanetHides, EndsRaysInTheMiddleOfAVolume) {
   EXPECT_LT(relativeRms(render(-800), render(-7)), 0.01);
 }
 
+// Light maps of surfaces are not of the eye's rays.
+TEST(PlanetHidesNothing, FromTheSun) {
+  const auto render = [](uint64_t without) {
+    SceneOptions options;
+    options.layers = WLK_LAYER_ALL & ~without;
+    const HeadlessScene scene(options);
+    scene.setSky();
+    scene.setSun(40, 160);
+    scene.setCamera({0, 2, 0}, 0, 40);
+    addSurface(scene, support::torusMesh(), scene.addMedium(), 0.01f, {900, 900, 900},
+               {0, 3300, -4000});
+    return scene.render();
+  };
+  EXPECT_TRUE(render(0) == render(WLK_LAYER_GROUND));
+}
+
 INSTANTIATE_TEST_SUITE_P(Layers, PlanetHides,
                          ::testing::Values(uint64_t{0}, uint64_t{WLK_LAYER_GROUND}));
 
