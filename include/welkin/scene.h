@@ -133,7 +133,7 @@ typedef struct WlkAmbient {
   uint32_t sType;
   uint32_t structSize;
   const void* next;
-  /** WLK_AMBIENT_*. Default OFF, also for a context whose ambient light was never set. */
+  /** WLK_AMBIENT_*. Default AUTOMATIC, also for a context whose ambient light was never set. */
   uint32_t mode;
   uint32_t reserved0;
   /** Of GIVEN: radiance from all directions above the horizontal plane through the volume's middle,
@@ -146,7 +146,8 @@ typedef struct WlkAmbient {
   uint32_t reserved1;
 } WlkAmbient;
 
-/** Sets the ambient light of volumes; null means OFF. From or to OFF needs wlkPrepare. AUTOMATIC
+/** Sets the ambient light of volumes; null means OFF. From or to OFF, as to and from AUTOMATIC
+ *  without air and fog, needs wlkPrepare. AUTOMATIC
  *  costs 4 ms of CPU time for each volume in a frame before which planet, air, lights or the
  *  volume's place have changed. [C] Errors: INVALID_ARGUMENT (mode, sky, ground, harmonics). */
 WLK_API WlkResult wlkSetAmbient(WlkContext context, const WlkAmbient* ambient);

@@ -118,7 +118,7 @@ enum {
 enum {
   /** Record every pass whether needed or not; for tests that compare with skipping. */
   WLK_QUALITY_NO_SKIP = 1u << 0,
-  /** Volumes shade air, fog and bare planet from the first light, as far as it scatters once. */
+  /** Volumes shade air, fog, bare planet from the first light; what layers let through arrives. */
   WLK_QUALITY_VOLUME_SHADOWS = 1u << 1,
   /** So does the engine's shadow map (WlkLightShadow) given with a view's targets: shafts. */
   WLK_QUALITY_LIGHT_SHADOWS = 1u << 2
@@ -463,7 +463,7 @@ enum {
   WLK_APPROXIMATION_SKY = 0,
   /** Light scattered more than once in the fog layer, by two Legendre terms. */
   WLK_APPROXIMATION_FOG = 1,
-  /** Light turned back inside volumes; with WLK_SCATTERING_SINGLE all that is scattered again. */
+  /** Light inside volumes; their shadows on air and ground, ambient light: where not asked for. */
   WLK_APPROXIMATION_VOLUME_SCATTERING = 2,
   /** Slabs and light-buffer texels. */
   WLK_APPROXIMATION_VOLUME_SLICES = 3

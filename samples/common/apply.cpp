@@ -230,7 +230,7 @@ void applyWorld(WlkContext context, const Scene& scene) {
   check(wlkSetSky(context, scene.sky ? &*scene.sky : nullptr), scene.file, "sky");
   check(wlkSetAbsorber(context, scene.absorber ? &*scene.absorber : nullptr), scene.file,
         "absorber");
-  check(wlkSetAmbient(context, scene.ambient ? &*scene.ambient : nullptr), scene.file, "ambient");
+  check(wlkSetAmbient(context, &scene.ambient), scene.file, "ambient");
   check(wlkSetLights(context, static_cast<uint32_t>(scene.lights.size()), sizeof(WlkLight),
                      scene.lights.data()),
         scene.file, "lights");

@@ -117,7 +117,7 @@ struct Scene {
   WlkPlanet planet{};
   std::optional<WlkSky> sky;
   std::optional<WlkAbsorber> absorber;
-  std::optional<WlkAmbient> ambient;
+  WlkAmbient ambient{};
   std::vector<WlkLight> lights;
   /// Without its medium, which exists in a context only.
   std::optional<WlkFog> fog;

@@ -202,9 +202,7 @@ void parseWorld(const JsonNode& root, Scene& scene) {
   } else if (root.isNull("absorber")) {
     scene.absorber.reset();
   }
-  if (root.has("ambient")) {
-    scene.ambient = parseAmbient(root.at("ambient"));
-  }
+  scene.ambient = root.has("ambient") ? parseAmbient(root.at("ambient")) : make<WlkAmbient>();
   if (root.has("lights")) {
     for (const JsonNode& node : root.at("lights").elements()) {
       scene.lights.push_back(parseLight(node, scene, initial.sun));

@@ -44,7 +44,8 @@ struct FrameUniforms {
   // Of the map of volumes' shadow: u, v in [0, 1] and distance d along the light (m), as
   // dot((position, 1), row); least d of a volume.
   vec4 shadow[3];
-  // Least d of a volume; cascades of the engine's map; distance of the nearest volume.
+  // Least d of a volume; cascades of the engine's map; distance of the nearest volume; cosine
+  // of the light's zenith angle where what volumes scatter goes on behind them, else 0.
   vec4 shadowRange;
   // Of each cascade: u, v and depth from the light on, in [0, 1], as dot((position, 1), row).
   vec4 cascade[3 * MAX_CASCADES];

@@ -7,6 +7,8 @@ struct ShadowVolume {
   vec4 acrossV;          //   0
   vec4 along;
   vec4 extinctionScale;  // per field: extinction (1/m) at value 1
+  vec4 weight;           // per field: what counts of its extinction
+  vec4 absorbed;         // per field: what of its extinction absorbs, with SHADOW_ABSORBED
   ivec4 rect;            // texels x0, y0, x1, y1 that the volume may cover
   vec4 voxels;           // along the axes
   vec4 atlas[4];         // per field: 1 / texels of the atlas of its bricks
@@ -22,3 +24,4 @@ struct ShadowConstants {
 const uint SHADOW_COLOR = 1u;  // as transmittance
 const uint SHADOW_LAYER = 2u;  // with the depths between which it rises
 const uint SHADOW_HALF = 4u;   // the image has half floats
+const uint SHADOW_ABSORBED = 8u;  // of layers also the optical depth of absorption

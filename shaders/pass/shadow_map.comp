@@ -12,7 +12,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 3) const uint FIELD_COUNT = 1;
 
 layout(set = 0, binding = 0, std140) uniform Volume { ShadowVolume volume; };
-// Per texel the optical depth, or that, mean of d and optical depth times variance of d.
+// Per texel the optical depth, or that, mean of d and optical depth times variance of d, and, if
+// asked for, the optical depth of absorption.
 layout(set = 0, binding = 1, std430) buffer Sums { float sums[]; };
 layout(set = 0, binding = 3) uniform sampler3D field0;
 layout(set = 0, binding = 4) uniform sampler3D field1;
@@ -41,11 +42,13 @@ void main() {
   float depth = 0.0f;
   float first = 0.0f;
   float second = 0.0f;
+  float absorbed = 0.0f;
   float k = 0.5f;
   while (k < count) {  // tested in front, as in eye_march.comp
     float d = inside.begin + k * dt;
     vec4 extinction = fieldExtinction(base + d * volume.along.xyz);
-    float part = (extinction.x + extinction.y + extinction.z + extinction.w) * dt;
+    float part = dot(extinction, volume.weight) * dt;
+    absorbed += dot(extinction, volume.absorbed) * dt;
     depth += part;
     first += part * d;
     second += part * d * d;
@@ -59,7 +62,8 @@ void main() {
     sums[at] += depth;
     return;
   }
-  at *= 3u;
+  bool more = (map.flags & SHADOW_ABSORBED) != 0u;
+  at *= more ? 4u : 3u;
   float mean = first / depth;
   // Samples stand for stretches: dt^2 / 12 is the variance inside one.
   float spread = max(second - first * mean, 0.0f) + depth * dt * dt / 12.0f;
@@ -70,4 +74,7 @@ void main() {
   sums[at] = sum;
   sums[at + 1u] += apart * (depth / sum);
   sums[at + 2u] += spread + apart * apart * depth * (other / sum);
+  if (more) {
+    sums[at + 3u] += absorbed;
+  }
 }

@@ -23,9 +23,15 @@ vec3 rounded(vec3 v) {
               unpackHalf2x16(packHalf2x16(vec2(in_.z, 0.0f))).x);
 }
 
+// First of a texel's sums.
+uint sumsOf(ivec2 texel) {
+  uint each = (map.flags & SHADOW_ABSORBED) != 0u ? 4u : 3u;
+  return each * (uint(texel.y) * map.width + uint(texel.x));
+}
+
 // Optical depth and ends of the layer.
 vec3 layerAt(ivec2 texel) {
-  uint at = 3u * (uint(texel.y) * map.width + uint(texel.x));
+  uint at = sumsOf(texel);
   float depth = sums[at];
   float half_ = depth > 0.0f ? sqrt(3.0f * sums[at + 2u] / depth) : 0.0f;
   return vec3(depth, sums[at + 1u] - half_, sums[at + 1u] + half_);
@@ -54,7 +60,9 @@ void main() {
     if (!(layer.x > 0.0f)) {
       layer = vec3(0.0f, endsAround(ivec2(texel)));
     }
-    imageStore(target, ivec2(texel), vec4(rounded(layer), 0.0f));
+    bool more = (map.flags & SHADOW_ABSORBED) != 0u;
+    float absorbed = more ? sums[sumsOf(ivec2(texel)) + 3u] : 0.0f;
+    imageStore(target, ivec2(texel), vec4(rounded(layer), absorbed));
   } else if ((map.flags & SHADOW_COLOR) != 0u) {
     imageStore(target, ivec2(texel), vec4(rounded(vec3(exp(-min(sums[at], 80.0f)))), 1.0f));
   } else {

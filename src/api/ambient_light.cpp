@@ -222,10 +222,11 @@ WlkResult wlkSetAmbient(WlkContext context, const WlkAmbient* ambient) {
       value = checkedAmbient(ambient);
       value.next = nullptr;
     }
-    if ((value.mode == WLK_AMBIENT_OFF) != (c.air.ambient.mode == WLK_AMBIENT_OFF)) {
+    const bool before = c.ambientActive();
+    c.air.ambient = value;
+    if (c.ambientActive() != before) {
       c.invalidate();
     }
-    c.air.ambient = value;
     return WLK_SUCCESS;
   });
 }

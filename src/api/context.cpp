@@ -127,6 +127,7 @@ WlkContext_T::WlkContext_T(const WlkContextInfo& contextInfo)
       errorVolumes(&memory),
       shadowCasters(&memory) {
   wlkInitStruct(WLK_STRUCT_PLANET, sizeof air.planet, &air.planet);
+  wlkInitStruct(WLK_STRUCT_AMBIENT, sizeof air.ambient, &air.ambient);
   const ContextChain chain = readChain(contextInfo.next);
   if (chain.headless != nullptr) {
     vk::HeadlessOptions options;

@@ -117,6 +117,11 @@ struct WlkContext_T {
   welkin::vk::Image dummyArray;
 
   bool fogActive() const { return air.fog && air.fog->extinction > 0; }
+  // Whether there is anything that ambient light could come from.
+  bool ambientActive() const {
+    return air.ambient.mode == WLK_AMBIENT_GIVEN ||
+           (air.ambient.mode == WLK_AMBIENT_AUTOMATIC && (air.sky || fogActive()));
+  }
   bool absorbs() const {
     return air.absorber && (air.absorber->extinction[0] > 0 || air.absorber->extinction[1] > 0 ||
                             air.absorber->extinction[2] > 0);

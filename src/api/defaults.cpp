@@ -61,6 +61,12 @@ WlkLight light() {
   return l;
 }
 
+WlkAmbient ambient() {
+  auto a = blank<WlkAmbient>(WLK_STRUCT_AMBIENT);
+  a.mode = WLK_AMBIENT_AUTOMATIC;
+  return a;
+}
+
 WlkFog fog() {
   auto f = blank<WlkFog>(WLK_STRUCT_FOG);
   f.dropletDiameter_um = 10.0f;
@@ -222,7 +228,7 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
     case WLK_STRUCT_ABSORBER:
       return write(absorber(), structSize, structure);
     case WLK_STRUCT_AMBIENT:
-      return write(blank<WlkAmbient>(sType), structSize, structure);
+      return write(ambient(), structSize, structure);
     case WLK_STRUCT_MEDIUM_INFO:
       return write(medium(), structSize, structure);
     case WLK_STRUCT_MEDIUM_OPTICS:

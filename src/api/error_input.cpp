@@ -7,15 +7,6 @@
 namespace welkin {
 namespace {
 
-double gapOf(const Particle& particle) {
-  double sum = 0;
-  for (size_t c = 0; c < RGB; ++c) {
-    sum +=
-        particle.analytic ? 1 - meanCosine(particle.phase) : meanOneMinusCosine(particle.curve, c);
-  }
-  return sum / RGB;
-}
-
 // All fields of a volume as one body, weighted by what they scatter.
 ErrorVolume bodyOf(const VolumeState& volume) {
   ErrorVolume body;
@@ -34,7 +25,7 @@ ErrorVolume bodyOf(const VolumeState& volume) {
     const std::array<double, RGB> scaled = field.medium.scaledAlbedo();
     mean += fieldMean;
     square += fieldRoot;
-    gap += fieldMean * gapOf(*field.medium.particle);
+    gap += fieldMean * meanOneMinusCosine(*field.medium.particle);
     albedo += fieldMean * (scaled[0] + scaled[1] + scaled[2]) / RGB;
   }
   if (mean > 0 && square > 0) {
@@ -66,7 +57,7 @@ ErrorInput errorInput(const WlkContext_T& c, const ViewState& view, const PlanIn
     in.air.fogBaseAltitude = c.air.fog->baseAltitude;
     in.air.fogScaleHeight = c.air.fog->scaleHeight;
     std::copy_n(c.air.fog->singleScatteringAlbedo, 3, in.air.fogAlbedo);
-    in.fogGap = gapOf(c.air.fogPhase->particle);
+    in.fogGap = meanOneMinusCosine(c.air.fogPhase->particle);
   }
   in.eyeFromNdc = view.eyeFromNdc;
   // Of several lights the first, which is the brightest as a rule.

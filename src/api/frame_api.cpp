@@ -303,7 +303,7 @@ static void prepareTables(WlkContext_T& c, VolumeState& volume) {
     if (const ViewState* view = c.views.at(i)) {
       const SliceQuality quality = resolveQuality(view->quality);
       prepareVolume(*c.device, volume, quality.form());
-      if (quality.ambientCells > 0 && c.air.ambient.mode != WLK_AMBIENT_OFF) {
+      if (quality.ambientCells > 0 && c.ambientActive()) {
         prepareMedia(*c.device, volume);
       }
     }
@@ -335,7 +335,7 @@ WlkResult wlkPrepare(WlkContext context) {
     features.fog = c.fogActive();
     features.lights = std::max(c.air.lightCount, 1U);
     features.shapedDisk = c.shapedDisk();
-    features.ambient = c.air.ambient.mode != WLK_AMBIENT_OFF;
+    features.ambient = c.ambientActive();
     prepareSkyLight(c);
     prepareLightStores(c);
     prepareSurfaceLights(c);

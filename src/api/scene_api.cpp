@@ -88,6 +88,11 @@ WlkResult wlkCreateVolume(WlkContext context, const WlkVolumeInfo* info, WlkVolu
       state.fields[i].medium = used.medium;
       state.fields[i].tables = used.tables;
       state.fields[i].extinctionScale = fields[i].extinctionScale;
+      const std::array<double, RGB> albedo = used.medium.scaledAlbedo();
+      const double scattered = (albedo[0] + albedo[1] + albedo[2]) / RGB;
+      const double turned = scattered * meanOneMinusCosine(*used.medium.particle);
+      state.fields[i].transportShare = static_cast<float>(1 - scattered + turned);
+      state.fields[i].absorbedShare = static_cast<float>(1 - scattered);
     }
     state.grey = scattersGrey(state);
     c.invalidate();

@@ -71,11 +71,11 @@ void prepareSurfaceLights(WlkContext_T& c) {
     }
     c.retired.reserve(c.retired.size() + surface->lights.size());
     for (SurfaceLight& light : surface->lights) {
-      if (!wanted(c, light.size) || (light.up && c.air.ambient.mode == WLK_AMBIENT_OFF)) {
+      if (!wanted(c, light.size) || (light.up && !c.ambientActive())) {
         retireLight(c, light);
       }
     }
-    const bool ambient = c.air.ambient.mode != WLK_AMBIENT_OFF;
+    const bool ambient = c.ambientActive();
     if (std::erase_if(surface->lights, [](const SurfaceLight& light) { return !light.columns; }) >
         0) {
       c.forgetBindings();

@@ -73,10 +73,24 @@ double leftOfAmbient(double share, double with, double reducedDepth) {
   const double depth = reducedDepth / (1 + reducedDepth);
   return missing(share * std::exp((1 - depth) * thin + depth * thick));
 }
-double leftOfVolume(double single, double reducedDepthOfCell) {
+// An eye inside sees single cells: what they are off by is not averaged over many.
+constexpr double ALL_ORDERS_INSIDE = 4.0;
+double leftOfVolume(double single, double reducedDepthOfCell, bool inside) {
   const double cells = ALL_ORDERS_CELLS * std::pow(reducedDepthOfCell, ALL_ORDERS_CELL_POWER);
-  return std::min(single, std::min(std::hypot(ALL_ORDERS_VOLUME, cells), 1.0));
+  const double near = inside ? missing(ALL_ORDERS_INSIDE * reducedDepthOfCell) : 0.0;
+  return std::min(single, std::min(std::hypot(ALL_ORDERS_VOLUME, cells, near), 1.0));
 }
+
+// Of all orders only the first follows the slabs.
+constexpr double SLABS_OF_FIRST = 0.7;
+
+// Shadows of volumes on air and fog, where they are not drawn: how bright bodies are beside the
+// air, in the unit of a phase function that is the same for all angles.
+constexpr double BODY_RADIANCE = 0.2;
+constexpr int SHADOW_SAMPLES = 32;
+constexpr double SHADOW_REACH = 12;     // edges of the box
+constexpr double ALL_OVER_FIRST = 1.4;  // light of the sky
+constexpr double LAMBERT = 0.318309886183791;
 
 // What of a ray a species contributes: radiance per irradiance of an isotropic phase function, and
 // the optical depth.
@@ -157,6 +171,10 @@ class Body {
       }
     }
     voxelsAlong_ = chord / cell;
+    const double edges[3] = {glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])};
+    longest_ = *std::max_element(edges, edges + 3);
+    flatness_ = *std::min_element(edges, edges + 3) / longest_;
+    nearest_ = glm::length(volume.worldFromBox * glm::dvec4(0.5, 0.5, 0.5, 1) - in.eye);
   }
 
   // Error of so many slabs where the body is seen.
@@ -170,6 +188,8 @@ class Body {
   struct Seen {
     double share = 0;
     double scattering = 0;
+    double radiance = 0;  // per share and irradiance
+    double entry = 0;     // m
   };
   Seen along(const glm::dvec3& direction, const ErrorInput& in, double ambient) const {
     const std::array<double, 2> cut = crossBox(boxFromWorld_, eyeInBox_, direction);
@@ -179,6 +199,8 @@ class Body {
     const double depth = volume_.extinction * (cut[1] - cut[0]) * thin_;
     Seen seen;
     seen.share = cover_ * -std::expm1(-depth);
+    seen.entry = cut[0];
+    seen.radiance = BODY_RADIANCE * depth * volume_.gap / (1 + depth * volume_.gap);
     const double both = std::sqrt(std::min(depth, 1e3) * std::min(lightDepth_, 1e3));
     const double with = 0.5 * (1 + glm::dot(direction, in.toLight));
     const bool forward = in.quality.forwardScattering;
@@ -190,10 +212,40 @@ class Body {
     seen.scattering = missing(volume_.albedo * scale * std::pow(reduced, power));
     if (in.quality.transport) {
       seen.scattering =
-          std::hypot(leftOfVolume(seen.scattering, both * volume_.gap / in.quality.transportCells),
+          std::hypot(leftOfVolume(seen.scattering, both * volume_.gap / in.quality.transportCells,
+                                  cut[0] == 0),
                      leftOfAmbient(volume_.albedo * ambient, with, both * volume_.gap));
     }
     return seen;
+  }
+
+  // Stretch of a ray in the body's shadow, roughly; empty if they are equal.
+  std::array<double, 2> shadowOn(const glm::dvec3& direction, const glm::dvec3& toLight,
+                                 double reach) const {
+    const double step = std::min(SHADOW_REACH * longest_ + nearest_, reach) / SHADOW_SAMPLES;
+    std::array<double, 2> found{0, 0};
+    for (int i = 0; i < SHADOW_SAMPLES; ++i) {
+      const double t = (i + 0.5) * step;
+      if (shades(direction * t, toLight)) {
+        found[0] = found[1] > 0 ? found[0] : t - 0.5 * step;
+        found[1] = t + 0.5 * step;
+      }
+    }
+    return found;
+  }
+  bool shades(const glm::dvec3& position, const glm::dvec3& toLight) const {
+    const std::array<double, 2> cut =
+        crossBox(boxFromWorld_, eyeInBox_ + boxFromWorld_ * position, toLight);
+    return cut[1] > cut[0];
+  }
+  // Of the box's shadow that is the body's.
+  double cover() const { return cover_; }
+  // Share of the light that is lacking there: what a layer turns back, all that others scatter.
+  double shade() const {
+    const double turned = lightDepth_ * (1 - volume_.albedo * (1 - volume_.gap));
+    const double layer = missing(0.5 * turned);
+    const double flat = std::clamp(1 - 2 * flatness_, 0.0, 1.0);
+    return flat * layer + (1 - flat) * -std::expm1(-lightDepth_);
   }
 
  private:
@@ -204,7 +256,40 @@ class Body {
   double thin_ = 1;
   double lightDepth_ = 0;
   double voxelsAlong_ = 0;
+  double longest_ = 0;   // edge, m
+  double flatness_ = 1;  // shortest edge over longest
+  double nearest_ = 0;   // distance of the middle, m
 };
+
+// Light of air and fog that is drawn though volumes shade it; `ground`: that of the ground at
+// `reach`, by the light alone. `cover`: of the pixel.
+Color shadowedLight(const ErrorInput& in, const PlanetFrame& eye, const glm::dvec3& direction,
+                    double reach, const Color& ground, double& cover) {
+  Color lost{};
+  cover = 0;
+  if (in.quality.volumeShadows) {
+    return lost;
+  }
+  for (const ErrorVolume& volume : in.volumes) {
+    const Body body(volume, in);
+    const std::array<double, 2> shadow = body.shadowOn(direction, in.toLight, reach);
+    if (shadow[1] > shadow[0]) {
+      cover = std::max(cover, body.cover());
+      const Species far = speciesAlong(in.air, eye, direction, in, shadow[1]);
+      const Species near = speciesAlong(in.air, eye, direction, in, shadow[0]);
+      for (size_t c = 0; c < 3; ++c) {
+        lost[c] += body.shade() * std::max(far.radiance[c] - near.radiance[c], 0.0);
+      }
+    }
+    if (ground[0] > 0 && body.shades(direction * reach, in.toLight)) {
+      cover = std::max(cover, body.cover());
+      for (size_t c = 0; c < 3; ++c) {
+        lost[c] += body.shade() * ground[c];
+      }
+    }
+  }
+  return lost;
+}
 
 // Means over the picture of the squared parts; those of the slabs for each of `slabs` into
 // `slices`.
@@ -254,28 +339,50 @@ ErrorParts meanSquares(const ErrorInput& in, std::span<const uint32_t> slabs,
       const glm::dvec4 ndc((x + 0.5) * 2.0 / GRID - 1, (y + 0.5) * 2.0 / GRID - 1, 0.5, 1);
       const glm::dvec4 far = in.eyeFromNdc * ndc;
       const glm::dvec3 direction = glm::normalize(glm::dvec3(far) / far.w);
-      double free = 1;  // share of the pixel that no volume hides
+      double free = 1;      // share of the pixel that no volume hides
+      double before = 0;    // radiance of bodies
+      bool hidden = false;  // what is farther than `reach`
+      double reach = std::numeric_limits<double>::infinity();
       for (const ErrorVolume& volume : in.volumes) {
         const Body body(volume, in);
         const Body::Seen seen = body.along(direction, in, ambient);
         const double share = free * seen.share;
         squares[WLK_APPROXIMATION_VOLUME_SCATTERING] += share * seen.scattering * seen.scattering;
         for (size_t i = 0; share > 0 && i < slabs.size(); ++i) {
-          const double error = body.slices(slabs[i]);
+          const double error =
+              (in.quality.transport ? SLABS_OF_FIRST : 1.0) * body.slices(slabs[i]);
           slices[i] += share * error * error / (GRID * GRID);
         }
         free -= share;
+        before += share * seen.radiance;
+        if (free < 0.5 && !hidden) {
+          hidden = true;
+          reach = seen.entry;
+        }
       }
       const double ground =
           evalGroundDistance(eye.altitude, glm::dot(direction, eye.up), in.planet.radius);
       const double distance = ground >= 0 ? ground : std::numeric_limits<double>::infinity();
       const Species air = speciesAlong(airOnly, eye, direction, in, distance);
       const Species fog = speciesAlong(fogOnly, eye, direction, in, distance);
+      // Of the ground, where nothing hides it.
+      Color lit{};
+      for (size_t c = 0; c < 3 && ground >= 0 && !hidden; ++c) {
+        lit[c] = albedo * std::max(sunMu, 0.0) * LAMBERT * sunlight[c] *
+                 std::exp(-air.depth[c] - fog.depth[c]);
+      }
+      double shaded = 0;
+      const Color lost = shadowedLight(in, eye, direction, std::min(distance, reach), lit, shaded);
       for (size_t c = 0; c < 3; ++c) {
         const double sum = air.radiance[c] + fog.radiance[c];
         if (!(sum > 0)) {
           continue;
         }
+        const double all = ALL_OVER_FIRST * (free * sum + (1 - free) * lost[c] + free * lit[c]) +
+                           before * sunlight[c];
+        // Too much light, not too little: over what is right.
+        const double shade = std::min(lost[c] / std::max(all - lost[c], 1e-30), 10.0);
+        squares[WLK_APPROXIMATION_VOLUME_SCATTERING] += shaded * shade * shade / 3;
         const double reduced =
             std::sqrt(std::min(fog.depth[c], 50.0) * std::min(fogDepth[c], 50.0)) * in.fogGap;
         const double first = missing(FIT.fogScale * std::pow(reduced, FIT.fogPower) *

@@ -49,6 +49,10 @@ struct FieldState {
   Medium medium;
   std::shared_ptr<MediumTables> tables;  // of the medium
   float extinctionScale = 0;
+  // Of what extinction takes from light: what is turned, by the mean of 1 - cosine, or absorbed,
+  // and what is absorbed alone.
+  float transportShare = 1;
+  float absorbedShare = 1;
   float largest = 0;  // bound of the values in `image`
   // Means of the values and their squares; of an upload by parts as if the rest kept its mean.
   double mean = 0;

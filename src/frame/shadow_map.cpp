@@ -26,6 +26,15 @@ glm::dvec3 turned(const glm::dvec3& v, const glm::dvec3& from, const glm::dvec3&
   return v * cosine + glm::cross(axis, v) + axis * (glm::dot(axis, v) / (1 + cosine));
 }
 
+// How much of the light that a volume scatters goes on behind it as if there were more of it at its
+// sides: in a wide layer all; what a body as high as it is wide scatters spreads, and little of it
+// meets what lies in its shadow. Never 0, since the map's depths are weighted by it.
+float keptSideways(const VolumeState& volume) {
+  const glm::dmat4x3& box = volume.worldFromBox;
+  const auto edges = std::minmax({glm::length(box[0]), glm::length(box[1]), glm::length(box[2])});
+  return static_cast<float>(std::clamp(1 - 2 * edges.first / edges.second, 0.05, 1.0));
+}
+
 }  // namespace
 
 ShadowLayout layoutShadowMap(const WlkShadowMapInfo& info, const glm::dvec3& toLight,
@@ -63,7 +72,7 @@ std::array<double, 12> mapFromWorld(const ShadowLayout& s) {
 }
 
 interface_::ShadowVolume shadowVolume(const ShadowLayout& s, const WlkShadowMapInfo& info,
-                                      const VolumeState& volume) {
+                                      const VolumeState& volume, bool scattered) {
   const glm::dmat4x3& box = volume.worldFromBox;
   const glm::dvec3 middle = box * glm::dvec4(0.5, 0.5, 0.5, 1.0) - s.corner;
   glm::dvec3 reach(0);  // half extents along u, v, d
@@ -105,6 +114,10 @@ interface_::ShadowVolume shadowVolume(const ShadowLayout& s, const WlkShadowMapI
       out.extinctionScale[static_cast<int>(i)] =
           field.extinctionScale * static_cast<float>(field.medium.extinctionFactor());
     }
+    const float kept = scattered ? keptSideways(volume) : 1.0f;
+    out.weight[static_cast<int>(i)] = scattered ? kept * field.transportShare : 1.0f;
+    out.absorbed[static_cast<int>(i)] =
+        scattered ? 1.0f - kept + kept * 0.5f * field.absorbedShare : 0.0f;
   }
   fillBricks(volume, out);
   return out;

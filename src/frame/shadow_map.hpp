@@ -29,7 +29,8 @@ ShadowLayout layoutShadowMap(const WlkShadowMapInfo& info, const glm::dvec3& toL
 std::array<double, 12> mapFromWorld(const ShadowLayout& layout);
 
 // Constants of a volume's pass; its `rect` is empty where the volume does not reach the map.
+// `scattered`: scattered light goes on.
 interface_::ShadowVolume shadowVolume(const ShadowLayout& layout, const WlkShadowMapInfo& info,
-                                      const VolumeState& volume);
+                                      const VolumeState& volume, bool scattered);
 
 }  // namespace welkin

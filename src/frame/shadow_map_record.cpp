@@ -85,7 +85,8 @@ class ShadowRecorder {
     push_.height = map.info.height;
     push_.flags = (content == WLK_SHADOW_TRANSMITTANCE ? interface_::SHADOW_COLOR : 0) |
                   (content == WLK_SHADOW_LAYER ? interface_::SHADOW_LAYER : 0) |
-                  (half ? interface_::SHADOW_HALF : 0);
+                  (half ? interface_::SHADOW_HALF : 0) |
+                  (input.scattered ? interface_::SHADOW_ABSORBED : 0);
   }
 
   void run() {
@@ -128,7 +129,7 @@ class ShadowRecorder {
       }
       return false;
     }
-    volume = shadowVolume(layout_, map_.info, *caster.state);
+    volume = shadowVolume(layout_, map_.info, *caster.state, in_.scattered);
     if (volume.rect.z <= volume.rect.x || volume.rect.w <= volume.rect.y) {
       reason = WLK_REASON_OUTSIDE_VIEW;
       return false;
@@ -308,7 +309,7 @@ void prepareShadowMap(vk::Device& device, vk::Pipelines& pipelines, const WlkSha
         std::max<VkDeviceSize>(device.properties().limits.minUniformBufferOffsetAlignment, 16));
     made.uniforms = vk::Buffer(device, made.stride * (volumeCount + 1) * framesInFlight,
                                VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, true);
-    const VkDeviceSize floats = info.content == WLK_SHADOW_LAYER ? 3 : 1;
+    const VkDeviceSize floats = info.content == WLK_SHADOW_LAYER ? 4 : 1;
     const VkDeviceSize bytes = VkDeviceSize{info.width} * info.height * floats * sizeof(float);
     if (bytes > device.properties().limits.maxStorageBufferRange) {
       fail(WLK_ERROR_LIMIT_EXCEEDED, info.sType, "width",

@@ -15,6 +15,7 @@ struct ShadowMapInput {
   VkImageView dummy3d = VK_NULL_HANDLE;
   uint64_t frameIndex = 0;
   uint32_t slot = 0;
+  bool scattered = false;  // layers of what turns and of what absorbs light
 };
 
 // Makes pipelines and buffers for `volumeCount` volumes. Strong guarantee: on failure `made` holds

@@ -189,6 +189,10 @@ void fillFrame(const AirState& air, const SkyLightState& sky, const ViewState& v
   out.volumeRect = {static_cast<float>(rect.x0), static_cast<float>(rect.y0),
                     static_cast<float>(rect.x1), static_cast<float>(rect.y1)};
   out.froxelRange.w = view.plan.ground ? 1.0f : 0.0f;
+  if (view.plan.quality.multipleSky) {
+    const double level = glm::dot(view.plan.lights.light[0].toLight, frame.up);
+    out.shadowRange.w = static_cast<float>(std::clamp(level, 0.1, 1.0));
+  }
   fillSky(air, frame.altitude, view.plan, sky.now, out);
 }
 

@@ -69,7 +69,9 @@ void writePlace(const WlkShadowMapState& state, const glm::dvec3& eye, double le
   rows[3].x = static_cast<float>(least - glm::dot(along, eye) + static_cast<double>(rows[2].w));
   static_assert(offsetof(interface_::FrameUniforms, shadowRange) ==
                 offsetof(interface_::FrameUniforms, shadow) + 3 * sizeof(glm::vec4));
-  std::memcpy(uniforms + offsetof(interface_::FrameUniforms, shadow), rows.data(), sizeof rows);
+  // Of the last row the rest is there already.
+  std::memcpy(uniforms + offsetof(interface_::FrameUniforms, shadow), rows.data(),
+              3 * sizeof(glm::vec4) + sizeof(float));
 }
 
 }  // namespace
@@ -112,6 +114,7 @@ bool recordViewShadow(const vk::Device& device, const vk::Pipelines& pipelines,
     input.dummy3d = in.dummy3d;
     input.frameIndex = in.frameIndex;
     input.slot = in.slot;
+    input.scattered = view.plan.quality.multipleSky;
     r.shadow.info = emptyInfo();
     const double least = coverVolumes(r.shadowCasters, light.toLight, input.up, r.shadow.info);
     TargetImage target;

@@ -53,6 +53,15 @@ Medium makeMedium(ParticleType type, const ParticleParams& params,
   return medium;
 }
 
+double meanOneMinusCosine(const Particle& particle) {
+  double sum = 0;
+  for (size_t c = 0; c < RGB; ++c) {
+    sum +=
+        particle.analytic ? 1 - meanCosine(particle.phase) : meanOneMinusCosine(particle.curve, c);
+  }
+  return sum / RGB;
+}
+
 double evalParticle(const Particle& particle, size_t channel, double angle) {
   const double half = std::sin(0.5 * angle);
   const double y = 2 * half * half;

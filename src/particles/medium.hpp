@@ -28,6 +28,9 @@ struct Medium {
 Medium makeMedium(ParticleType type, const ParticleParams& params,
                   const std::array<double, RGB>& albedo);
 
+// 1 - the mean cosine of the scattering angle, over the colours.
+double meanOneMinusCosine(const Particle& particle);
+
 // P in 1/sr of a channel at a scattering angle in rad: the closed form where it is exact.
 double evalParticle(const Particle& particle, size_t channel, double angle);
 

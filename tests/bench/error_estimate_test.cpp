@@ -36,31 +36,43 @@ host::Image forwardPicture(World& world, const Method& level, const host::Raster
   return picture;
 }
 
-// Every case without opaque geometry, which the estimate leaves out, at every level.
+Compared compare(World& world, const Method& method, const host::RasterResult& opaque,
+                 const Reference& truth, const Case& one) {
+  const WlkView view = world.addView(qualityOf(method));
+  world.prepare();
+  world.render(view, opaque);
+  const host::Image picture = world.read(view);
+  Compared row{one.name, levelName(method.settings.level),
+               measuredError(errorsOf(picture, truth, one)), NAN, world.estimate(view)};
+  world.removeView(view);
+  return row;
+}
+
+// Every case without opaque geometry, which the estimate leaves out, at every level; those with
+// volumes at one of them also without the light of sky and ground.
 const std::vector<Compared>& compareAll() {
   static const std::vector<Compared> all = [] {
     std::vector<Compared> result;
     for (const Case& one : readCases(WELKIN_BENCH_FOLDER "/front_cases.json")) {
       World world(one, false);
+      World bare(one, false, false);
       if (world.scene().geometry) {
         continue;
       }
       const References references = readReferences(WELKIN_BENCH_FOLDER "/reference", one);
       const host::RasterResult opaque = world.makeOpaque();
       for (const Method& method : levelMethods()) {
-        const WlkView view = world.addView(qualityOf(method));
-        world.prepare();
-        world.render(view, opaque);
-        const host::Image picture = world.read(view);
-        const Ordered limit =
-            references.converged.picture
-                ? errorsOf(forwardPicture(world, method, opaque), references.converged, one)
-                : Ordered();
-        result.push_back({one.name, levelName(method.settings.level),
-                          measuredError(errorsOf(picture, references.all, one)),
-                          limit.is_null() ? NAN : std::sqrt(limit.at("relMSE").get<double>()),
-                          world.estimate(view)});
-        world.removeView(view);
+        Compared row = compare(world, method, opaque, references.all, one);
+        if (references.converged.picture) {
+          const Ordered limit =
+              errorsOf(forwardPicture(bare, method, opaque), references.converged, one);
+          row.slabs = std::sqrt(limit.at("relMSE").get<double>());
+        }
+        result.push_back(row);
+        if (references.converged.picture && method.settings.level == WLK_QUALITY_HIGH) {
+          result.push_back(compare(bare, method, opaque, references.all, one));
+          result.back().level = "bare";
+        }
       }
     }
     return result;

@@ -50,8 +50,9 @@ std::string describe(const Ordered& row, const std::string& figure, double value
 }  // namespace
 
 std::vector<Ordered> measureLevels(const Case& one, const References& references) {
-  World world(one, false);
-  const host::RasterResult opaque = world.makeOpaque();
+  World shown(one, false);
+  World bare(one, false, false);
+  const host::RasterResult opaque = shown.makeOpaque();
   // Slabs and texels answer for themselves with forward scattering, whose limit is no grid's.
   std::vector<Method> methods = levelMethods();
   if (references.converged.picture) {
@@ -60,6 +61,7 @@ std::vector<Ordered> measureLevels(const Case& one, const References& references
   }
   std::vector<Ordered> rows;
   for (const Method& method : methods) {
+    World& world = method.settings.ambient ? shown : bare;
     const WlkView view = world.addView(qualityOf(method));
     world.prepare();
     world.render(view, opaque);
@@ -86,7 +88,7 @@ std::vector<Ordered> measureLevels(const Case& one, const References& references
 }
 
 host::Image convergedPicture(const Case& one) {
-  World world(one, false);
+  World world(one, false, false);
   const host::RasterResult opaque = world.makeOpaque();
   const Settings fine = convergedSettings(forwardMethods()[WLK_QUALITY_HIGH].settings);
   const WlkView view = world.addView(explicitQuality(fine));

@@ -76,6 +76,7 @@ Method vary(const Variation& variation) {
   settings.batchSize = std::min(settings.batchSize, settings.sliceCount);
   settings.halfAngle = variation.slicing == HALF;
   settings.scattering = variation.scattering;
+  settings.ambient = false;
   return method;
 }
 
@@ -151,6 +152,7 @@ std::vector<Method> forwardMethods() {
   for (uint32_t level = 0; level < LEVEL_COUNT; ++level) {
     Method method{std::string("forward-") + levelName(level), false, levelSettings(level)};
     method.settings.scattering = FORWARD;
+    method.settings.ambient = false;
     methods.push_back(method);
   }
   return methods;

@@ -25,6 +25,9 @@ struct Settings {
   uint32_t scattering = WLK_SCATTERING_FORWARD;
   bool analytic = false;
   uint32_t volumeCells = 0;  // 0: the level's
+  /// The scene's light of sky and ground on volumes, on its grid; without it slabs and texels alone
+  /// are left.
+  bool ambient = true;
 };
 
 struct Method {

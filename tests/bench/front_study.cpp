@@ -14,14 +14,16 @@ constexpr size_t WARM_UPS = 3;
 // Views of each method that are timed in turn.
 constexpr size_t COPIES = 3;
 
-// A case's contexts: with the tables of the phase functions, and, if asked for, the closed forms.
+// A case's contexts: with the tables of the phase functions or the closed forms, with the light of
+// sky and ground or without.
 class Worlds {
  public:
-  explicit Worlds(const Case& one) : case_(one) { opaque_ = of(false).makeOpaque(); }
-  World& of(bool analytic) {
-    std::unique_ptr<World>& world = worlds_.at(analytic ? 1 : 0);
+  explicit Worlds(const Case& one) : case_(one) { opaque_ = of({}).makeOpaque(); }
+  World& of(const Settings& settings) {
+    std::unique_ptr<World>& world =
+        worlds_.at((settings.analytic ? 1U : 0U) + (settings.ambient ? 2U : 0U));
     if (!world) {
-      world = std::make_unique<World>(case_, analytic);
+      world = std::make_unique<World>(case_, settings.analytic, settings.ambient);
     }
     return *world;
   }
@@ -30,7 +32,7 @@ class Worlds {
 
  private:
   const Case& case_;
-  std::array<std::unique_ptr<World>, 2> worlds_;
+  std::array<std::unique_ptr<World>, 4> worlds_;
   host::RasterResult opaque_;
 };
 
@@ -40,8 +42,8 @@ struct Shot {
 };
 
 // One frame of a view that is there alone, so that the memory counted is its own.
-Shot shoot(Worlds& worlds, const WlkQuality& quality, bool analytic) {
-  World& world = worlds.of(analytic);
+Shot shoot(Worlds& worlds, const WlkQuality& quality, const Settings& settings) {
+  World& world = worlds.of(settings);
   const WlkView view = world.addView(quality);
   world.prepare();
   world.render(view, worlds.opaque());
@@ -64,7 +66,7 @@ class Limits {
     Reference& limit = limits_[{settings.scattering, settings.analytic}];
     if (!limit.picture) {
       const Settings fine = convergedSettings(settings);
-      limit.picture = shoot(worlds_, explicitQuality(fine), fine.analytic).picture;
+      limit.picture = shoot(worlds_, explicitQuality(fine), fine).picture;
     }
     return limit;
   }
@@ -82,14 +84,14 @@ class Limits {
 Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell) {
   tell("scene");
   Worlds worlds(one);
-  const bool hasVolumes = !worlds.of(false).scene().volumes.empty();
+  const bool hasVolumes = !worlds.of({}).scene().volumes.empty();
   const References references = readReferences(options.referenceFolder, one);
   Limits limits(worlds, options, references.converged);
   const std::vector<Method> methods =
       options.levelsOnly ? levelMethods() : methodsFor(one, hasVolumes, options.quick);
 
   Study study;
-  const WlkCapabilities device = worlds.of(false).capabilities();
+  const WlkCapabilities device = worlds.of({}).capabilities();
   study.device = {{"name", std::string(device.deviceName)},
                   {"driver", "Vulkan " + std::to_string(device.vulkanVersion >> 22 & 0x7fu) + "." +
                                  std::to_string(device.vulkanVersion >> 12 & 0x3ffu) + "." +
@@ -97,7 +99,7 @@ Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell) 
   size_t anchor = 0;
   for (const Method& method : methods) {
     tell("errors of " + method.name);
-    const Shot shot = shoot(worlds, qualityOf(method), method.settings.analytic);
+    const Shot shot = shoot(worlds, qualityOf(method), method.settings);
     const bool single = method.settings.scattering == WLK_SCATTERING_SINGLE;
     Row row{method, shot.counts, {}, errorsOf(shot.picture, references.all, one), nullptr, nullptr};
     if (single) {
@@ -114,7 +116,7 @@ Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell) 
   std::vector<WlkView> views;
   std::vector<Copies> frames;
   for (const Method& method : methods) {
-    World& world = worlds.of(method.settings.analytic);
+    World& world = worlds.of(method.settings);
     Copies& copies = frames.emplace_back();
     for (size_t copy = 0; copy < COPIES; ++copy) {
       const WlkView view = world.addView(qualityOf(method));
@@ -128,12 +130,12 @@ Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell) 
     }
   }
   for (const Method& method : methods) {
-    worlds.of(method.settings.analytic).prepare();
+    worlds.of(method.settings).prepare();
   }
   const std::vector<Timing> timings = interleave(frames, anchor, WARM_UPS, options.rounds);
   for (size_t i = 0; i < methods.size(); ++i) {
     Row& row = study.rows[i];
-    FrameCounts steady = worlds.of(methods[i].settings.analytic).counts(views[i]);
+    FrameCounts steady = worlds.of(methods[i].settings).counts(views[i]);
     steady.deviceMemory = row.counts.deviceMemory;  // of this view alone
     steady.hostMemory = row.counts.hostMemory;
     row.counts = steady;

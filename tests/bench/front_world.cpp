@@ -3,7 +3,10 @@
 
 namespace bench {
 
-World::World(const Case& one, bool analytic) : scene_(sceneOf(one, analytic)) {
+World::World(const Case& one, bool analytic, bool ambient) : scene_(sceneOf(one, analytic)) {
+  if (!ambient) {
+    scene_.ambient.mode = WLK_AMBIENT_OFF;
+  }
   context_ = host::makeHeadlessContext(false, "", log_);
   host::applyWorld(context_.get(), scene_);
   host::applyBodies(context_.get(), scene_, [](const std::string&) {});

@@ -27,7 +27,7 @@ struct FrameCounts {
 
 class World {
  public:
-  World(const Case& one, bool analytic);
+  World(const Case& one, bool analytic, bool ambient = true);
 
   /// Every view of it needs prepare() before it renders.
   WlkView addView(const WlkQuality& quality);

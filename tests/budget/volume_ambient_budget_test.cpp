@@ -136,6 +136,42 @@ TEST_F(VolumeAmbientBudget, WithoutSkippingComputesEachFrameTheSamePicture) {
   }
 }
 
+TEST_F(VolumeAmbientBudget, IsAutomaticWhereNothingWasSet) {
+  SceneOptions options = small();
+  options.ambient = true;
+  EngineScene own(options);
+  own.setCamera({0, 2, 0}, 0, 12);
+  own.setSun(30, 20);
+  own.setSky();
+  own.addBall(0.01f);
+  check(wlkPrepare(own.context));
+  own.renderFrame();
+  setAmbient(WLK_AMBIENT_AUTOMATIC);
+  prepare();
+  render();
+  EXPECT_TRUE(own.read() == scene.read());
+  setAmbient(WLK_AMBIENT_OFF);
+  prepare();
+  render();
+  EXPECT_FALSE(own.read() == scene.read());
+}
+
+TEST_F(VolumeAmbientBudget, WithoutAirItNeedsNothing) {
+  scene.clearSky();
+  prepare();
+  render();
+  EXPECT_TRUE(lines().empty());
+  setAmbient(WLK_AMBIENT_AUTOMATIC);
+  expect(WLK_REASON_NOTHING_TO_DRAW, 0, 0, "no wlkPrepare between");
+  setAmbient(WLK_AMBIENT_OFF);
+  render();
+  EXPECT_TRUE(lines().empty());
+  setAmbient(WLK_AMBIENT_AUTOMATIC);
+  scene.setFog(1e-4f, 300);
+  prepare();
+  expectComputed("fog");
+}
+
 TEST_F(VolumeAmbientBudget, SingleScatteringHasNone) {
   setAmbient(WLK_AMBIENT_AUTOMATIC);
   auto quality = make<WlkQuality>();

@@ -225,6 +225,18 @@ TEST_F(LightShadowTest, AllInShadowHasNoFirstOrder) {
   }
 }
 
+// Beside the volumes' own map the engine's is still read.
+TEST_F(LightShadowTest, HoldsWithShadowsOfVolumesAsWell) {
+  scene.setSun(35, 270);
+  scene.addBall(0.01f);
+  const Image dark = uniform(0.0f);
+  setQuality(WLK_QUALITY_LIGHT_SHADOWS | WLK_QUALITY_VOLUME_SHADOWS, WLK_SCATTERING_SINGLE);
+  const Image lit = plain();
+  const Image both = uniform(0.0f);
+  EXPECT_LT(both.mean(), 0.9 * lit.mean());
+  EXPECT_LT(relativeRms(both, dark), MIDPOINTS + FIRST_ORDER);
+}
+
 // What was scattered before stays, and what lies beyond the map.
 TEST_F(LightShadowTest, OnlyTheFirstOrderGoes) {
   scene.setSky();

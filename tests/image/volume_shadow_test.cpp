@@ -185,6 +185,58 @@ TEST(VolumeShadow, TakesFromTheAirWhatAQuadratureSays) {
   }
 }
 
+Image renderDeck(const HeadlessScene& scene, uint32_t scattering, uint64_t flags) {
+  auto quality = make<WlkQuality>();
+  quality.level = WLK_QUALITY_LOW;
+  quality.scattering = scattering;
+  quality.flags = flags;
+  check(wlkSetQuality(scene.context, scene.view, &quality));
+  return scene.render();
+}
+
+// What a deck scatters comes through it: behind it the air lacks what the deck turns back, not what
+// it scatters once.
+TEST(VolumeShadow, OfADeckIsWhatItTurnsBack) {
+  struct Deck {
+    double depth;
+    double elevation_deg;
+    double through;  // all light through the slab, `welkin slab`, Henyey-Greenstein 0.76
+  };
+  constexpr std::array DECKS{Deck{1, 50, 0.876}, Deck{4, 50, 0.609}, Deck{1, 30, 0.766},
+                             Deck{4, 30, 0.489}};
+  constexpr double EDDINGTON = 0.05;  // of the light, volume_shadow.glsl
+  constexpr double HEIGHT_M = 500;
+  for (const Deck& deck : DECKS) {
+    SCOPED_TRACE(::testing::Message() << deck.depth << " at " << deck.elevation_deg);
+    SceneOptions options;
+    options.layers = WLK_LAYER_SKY | WLK_LAYER_VOLUMES;
+    const HeadlessScene scene(options);
+    scene.setSky();
+    scene.setSun(deck.elevation_deg, 20);
+    scene.setCamera(EYE, 180, 25);
+    const WlkVolume volume =
+        scene.addVolume(scene.addHenyeyGreenstein(0.76f), {2, 2, 2},
+                        boxTransform({-60000, 4000, -60000}, {120000, HEIGHT_M, 120000}),
+                        static_cast<float>(deck.depth / HEIGHT_M));
+    scene.upload(volume, {2, 2, 2}, std::vector<float>(8, 1.0f));
+    double taken[2] = {};
+    for (const bool first : {false, true}) {
+      const uint32_t scattering = first ? WLK_SCATTERING_SINGLE : WLK_SCATTERING_FORWARD;
+      const Image lit = renderDeck(scene, scattering, 0);
+      const Image shaded = renderDeck(scene, scattering, WLK_QUALITY_VOLUME_SHADOWS);
+      for (uint32_t y = 0; y < lit.height; ++y) {
+        for (uint32_t x = 0; x < lit.width; ++x) {
+          taken[first ? 1 : 0] += double{lit.at(x, y)[1]} - double{shaded.at(x, y)[1]};
+        }
+      }
+    }
+    const double met = -std::expm1(-deck.depth / std::sin(deck.elevation_deg * DEGREE));
+    EXPECT_NEAR(met * taken[0] / taken[1], 1 - deck.through, EDDINGTON);
+    EXPECT_GT(taken[1], 0.0);
+    EXPECT_TRUE(scene.messages().empty()) << scene.messages().front();
+  }
+}
+
 // No volume, none with density, none that the light reaches: the picture is as without the flag.
 TEST(VolumeShadow, ChangesNothingWhereThereIsNoShadow) {
   const HeadlessScene scene;

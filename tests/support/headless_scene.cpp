@@ -79,6 +79,9 @@ void SceneBuilder::create(const void* chained) {
   info.log = keepMessage;
   info.logUser = messages_.get();
   check(wlkCreateContext(&info, &context));
+  if (!options_.ambient) {
+    check(wlkSetAmbient(context, nullptr));
+  }
   if (options_.view) {
     view = addView(options_);
   }
