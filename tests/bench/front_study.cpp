@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "bench/front_study.hpp"
 
-#include <array>
 #include <map>
 #include <memory>
+#include <tuple>
 
 namespace bench {
 namespace {
@@ -14,14 +14,25 @@ constexpr size_t WARM_UPS = 3;
 // Views of each method that are timed in turn.
 constexpr size_t COPIES = 3;
 
+// A context keeps 512 MiB of light for its views, and draws in batches, several times slower, what
+// finds no room. Methods that keep a quarter of it have a context of their own, so that no method's
+// time depends on which others there are.
+bool keepsMuch(const Settings& settings) {
+  constexpr uint64_t TEXELS = uint64_t{1} << 24;  // of two floats
+  const uint64_t side = settings.lightBufferSize;
+  return settings.batchSize == 0 && side * side * settings.sliceCount >= TEXELS;
+}
+
 // A case's contexts: with the tables of the phase functions or the closed forms, with the light of
 // sky and ground or without.
 class Worlds {
  public:
   explicit Worlds(const Case& one) : case_(one) { opaque_ = of({}).makeOpaque(); }
   World& of(const Settings& settings) {
+    const bool apart = keepsMuch(settings);
     std::unique_ptr<World>& world =
-        worlds_.at((settings.analytic ? 1U : 0U) + (settings.ambient ? 2U : 0U));
+        worlds_[{settings.analytic, settings.ambient, apart ? settings.lightBufferSize : 0,
+                 apart ? settings.sliceCount : 0}];
     if (!world) {
       world = std::make_unique<World>(case_, settings.analytic, settings.ambient);
     }
@@ -32,7 +43,7 @@ class Worlds {
 
  private:
   const Case& case_;
-  std::array<std::unique_ptr<World>, 4> worlds_;
+  std::map<std::tuple<bool, bool, uint32_t, uint32_t>, std::unique_ptr<World>> worlds_;
   host::RasterResult opaque_;
 };
 
