@@ -15,12 +15,13 @@ constexpr size_t WARM_UPS = 3;
 constexpr size_t COPIES = 3;
 
 // A context keeps 512 MiB of light for its views, and draws in batches, several times slower, what
-// finds no room. Methods that keep a quarter of it have a context of their own, so that no method's
-// time depends on which others there are.
+// finds no room. The levels fit in; what else keeps a quarter of it has a context of its own, so
+// that no method's time depends on which others there are.
 bool keepsMuch(const Settings& settings) {
   constexpr uint64_t TEXELS = uint64_t{1} << 24;  // of two floats
   const uint64_t side = settings.lightBufferSize;
-  return settings.batchSize == 0 && side * side * settings.sliceCount >= TEXELS;
+  return !settings.ambient && settings.batchSize == 0 &&
+         side * side * settings.sliceCount >= TEXELS;
 }
 
 // A case's contexts: with the tables of the phase functions or the closed forms, with the light of
