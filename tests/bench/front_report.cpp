@@ -100,6 +100,8 @@ Ordered reportRow(const Case& one, const Row& row) {
             {"phase", settings.analytic ? "analytic" : "table"}}},
           {"width", one.width},
           {"height", one.height},
+          {"timedWidth", one.width * row.timedScale},
+          {"timedHeight", one.height * row.timedScale},
           {"time_ms", timing.wall},
           {"timeMad_ms", timing.wallDeviation},
           {"cpu_ms", timing.cpu},

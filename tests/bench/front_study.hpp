@@ -27,6 +27,8 @@ struct Row {
   Ordered truth;
   Ordered single;
   Ordered converged;
+  /// Edges of the timed views over the case's.
+  uint32_t timedScale = 1;
 };
 
 struct Study {

@@ -18,8 +18,15 @@ constexpr size_t MAX_REPEATS = 64;
 // see docs/accuracy-and-performance.md.
 constexpr double MIN_STUDY_ms = 4000.0;
 constexpr size_t MORE_ROUNDS = 7;
-// A frame longer than this needs no second warm-up: what is made once is a small part of it.
+// Warm-ups after a method's first frame end when they took this long: what is made once is then a
+// small part of a frame.
 constexpr double LONG_WARM_UP_ms = 200.0;
+// A method whose first frame takes longer than this (light of all orders) is not copied.
+constexpr double LONG_FIRST_ms = 1000.0;
+// Long frames differ less: from so many times MIN_ROUND_ms on a method is timed in every second
+// round, from twice that in every third.
+constexpr double LONG_ROUND = 4.0;
+constexpr size_t MAX_STRIDE = 3;
 
 struct Sample {
   double wall = 0.0;
@@ -92,6 +99,36 @@ Timing summarise(const std::vector<Sample>& samples, const std::vector<Sample>& 
   return timing;
 }
 
+// How one method is timed.
+struct Turn {
+  double frame_ms = std::numeric_limits<double>::infinity();
+  size_t repeats = 1;
+  size_t copies = 1;
+  /// Rounds from one timing to the next.
+  size_t stride = 1;
+};
+
+Turn warmUp(const Copies& copies, size_t warmUps) {
+  Turn turn;
+  turn.copies = copies.size();
+  for (size_t copy = 0; copy < turn.copies; ++copy) {
+    double spent = 0.0;
+    for (size_t k = 0; k < warmUps && spent < LONG_WARM_UP_ms; ++k) {
+      const double wall = timeFrames(copies[copy], 1).wall;
+      turn.frame_ms = std::min(turn.frame_ms, wall);
+      spent += k == 0 ? 0.0 : wall;
+      if (wall > LONG_FIRST_ms) {
+        turn.copies = 1;
+      }
+    }
+  }
+  const double wanted = std::ceil(MIN_ROUND_ms / std::max(turn.frame_ms, 1e-3));
+  turn.repeats = std::clamp<size_t>(static_cast<size_t>(wanted), 1, MAX_REPEATS);
+  const double longer = turn.frame_ms / (LONG_ROUND * MIN_ROUND_ms);
+  turn.stride = std::clamp<size_t>(1 + static_cast<size_t>(longer), 1, MAX_STRIDE);
+  return turn;
+}
+
 }  // namespace
 
 double medianOf(std::vector<double> values) {
@@ -102,35 +139,38 @@ double medianOf(std::vector<double> values) {
 
 std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor, size_t warmUps,
                                size_t rounds) {
-  std::vector<size_t> repeats(methods.size(), 1);
+  std::vector<Turn> turns;
   double round_ms = 0;
   for (size_t i = 0; i < methods.size(); ++i) {
-    double shortest = std::numeric_limits<double>::infinity();
-    for (const RenderFrame& frame : methods[i]) {
-      double spent = 0.0;
-      for (size_t k = 0; k < warmUps && (k == 0 || spent < LONG_WARM_UP_ms); ++k) {
-        const double wall = timeFrames(frame, 1).wall;
-        shortest = std::min(shortest, wall);
-        spent += wall;
-      }
+    turns.push_back(warmUp(methods[i], warmUps));
+    if (i == anchor) {
+      turns[i].stride = 1;
     }
-    const double wanted = std::ceil(MIN_ROUND_ms / std::max(shortest, 1e-3));
-    repeats[i] = std::clamp<size_t>(static_cast<size_t>(wanted), 1, MAX_REPEATS);
-    round_ms += shortest * static_cast<double>(repeats[i]);
+    round_ms += turns[i].frame_ms * static_cast<double>(turns[i].repeats) /
+                static_cast<double>(turns[i].stride);
   }
   const auto fill = static_cast<size_t>(MIN_STUDY_ms / round_ms);
   rounds = std::clamp(fill, rounds, MORE_ROUNDS * rounds);
   std::vector<std::vector<Sample>> samples(methods.size());
+  std::vector<std::vector<Sample>> anchors(methods.size());  // of the same rounds
   for (size_t round = 0; round < rounds; ++round) {
+    std::vector<size_t> timed;
     for (size_t k = 0; k < methods.size(); ++k) {
       const size_t i = (k + round) % methods.size();
-      const Copies& copies = methods[i];
-      samples[i].push_back(timeFrames(copies[round % copies.size()], repeats[i]));
+      const Turn& turn = turns[i];
+      if ((i + round) % turn.stride == 0) {
+        const RenderFrame& frame = methods[i][round / turn.stride % turn.copies];
+        samples[i].push_back(timeFrames(frame, turn.repeats));
+        timed.push_back(i);
+      }
+    }
+    for (const size_t i : timed) {
+      anchors[i].push_back(samples[anchor].back());
     }
   }
   std::vector<Timing> timings;
-  for (const std::vector<Sample>& own : samples) {
-    timings.push_back(summarise(own, samples[anchor]));
+  for (size_t i = 0; i < methods.size(); ++i) {
+    timings.push_back(summarise(samples[i], anchors[i]));
   }
   return timings;
 }

@@ -2,6 +2,15 @@
 #include "bench/front_world.hpp"
 
 namespace bench {
+namespace {
+
+host::Scene scaled(host::Scene scene, uint32_t scale) {
+  scene.view.width *= scale;
+  scene.view.height *= scale;
+  return scene;
+}
+
+}  // namespace
 
 World::World(const Case& one, bool analytic, bool ambient) : scene_(sceneOf(one, analytic)) {
   if (!ambient) {
@@ -12,8 +21,8 @@ World::World(const Case& one, bool analytic, bool ambient) : scene_(sceneOf(one,
   host::applyBodies(context_.get(), scene_, [](const std::string&) {});
 }
 
-WlkView World::addView(const WlkQuality& quality) {
-  host::Scene scene = scene_;
+WlkView World::addView(const WlkQuality& quality, uint32_t scale) {
+  host::Scene scene = scaled(scene_, scale);
   scene.quality = quality;
   return host::applyView(context_.get(), scene);
 }
@@ -69,8 +78,8 @@ FrameCounts World::counts(WlkView view) const {
   return counts;
 }
 
-host::RasterResult World::makeOpaque() const {
-  return host::makeOpaque(context_.get(), scene_, [](const std::string&) {});
+host::RasterResult World::makeOpaque(uint32_t scale) const {
+  return host::makeOpaque(context_.get(), scaled(scene_, scale), [](const std::string&) {});
 }
 
 WlkCapabilities World::capabilities() const {

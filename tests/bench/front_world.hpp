@@ -29,8 +29,8 @@ class World {
  public:
   World(const Case& one, bool analytic, bool ambient = true);
 
-  /// Every view of it needs prepare() before it renders.
-  WlkView addView(const WlkQuality& quality);
+  /// Every view of it needs prepare() before it renders. Its edges are `scale` times the case's.
+  WlkView addView(const WlkQuality& quality, uint32_t scale = 1);
   void removeView(WlkView view);
   void prepare();
 
@@ -39,8 +39,8 @@ class World {
   [[nodiscard]] FrameCounts counts(WlkView view) const;
   [[nodiscard]] WlkErrorEstimate estimate(WlkView view) const;
 
-  /// The opaque picture as this scene's air lights it.
-  [[nodiscard]] host::RasterResult makeOpaque() const;
+  /// The opaque picture as this scene's air lights it, for views of that scale.
+  [[nodiscard]] host::RasterResult makeOpaque(uint32_t scale = 1) const;
   [[nodiscard]] const host::Scene& scene() const { return scene_; }
   [[nodiscard]] WlkCapabilities capabilities() const;
 
