@@ -7,7 +7,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "bench/front_contract.hpp"
+#include "bench/error_gate_cases.hpp"
 
 namespace bench {
 
@@ -18,12 +18,8 @@ void PrintTo(const Case& one, std::ostream* stream) {
 
 namespace {
 
-std::vector<Case> allCases() {
-  return readCases(WELKIN_BENCH_FOLDER "/front_cases.json");
-}
-
 Case caseOf(const std::string& name) {
-  for (const Case& one : allCases()) {
+  for (const Case& one : gateCases()) {
     if (one.name == name) {
       return one;
     }
@@ -36,11 +32,10 @@ class ErrorGate : public testing::TestWithParam<Case> {};
 
 TEST_P(ErrorGate, LevelsKeepTheContract) {
   const Ordered contract = readContract(WELKIN_CONTRACT);
-  const References references = readReferences(WELKIN_BENCH_FOLDER "/reference", GetParam());
-  const std::vector<Ordered> rows = measureLevels(GetParam(), references);
-  ASSERT_EQ(rows.size(), (references.converged.picture ? 2 : 1) * LEVEL_COUNT);
-  for (const Ordered& row : rows) {
-    for (const std::string& text : violations(row, findRow(contract, row))) {
+  const GateCase& gate = gateCase(GetParam());
+  ASSERT_EQ(gate.levels.size(), (gate.references.converged.picture ? 2 : 1) * LEVEL_COUNT);
+  for (const Measured& measured : gate.levels) {
+    for (const std::string& text : violations(measured.row, findRow(contract, measured.row))) {
       ADD_FAILURE() << text;
     }
   }
@@ -52,7 +47,7 @@ std::string testName(const testing::TestParamInfo<Case>& info) {
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, ErrorGate, testing::ValuesIn(allCases()), testName);
+INSTANTIATE_TEST_SUITE_P(Scenes, ErrorGate, testing::ValuesIn(gateCases()), testName);
 
 Ordered exampleRow(double error, double dispatches) {
   return {{"case", "cumulus-side"},

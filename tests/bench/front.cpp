@@ -84,8 +84,8 @@ void writeContract(const Options& options) {
       writePacked(referenceFile(options.references, one, "converged"), convergedPicture(one),
                   CONVERGED_BITS);
     }
-    for (Ordered& row : measureLevels(one, readReferences(options.references, one))) {
-      contract["rows"].push_back(std::move(row));
+    for (Measured& measured : measureLevels(one, readReferences(options.references, one))) {
+      contract["rows"].push_back(std::move(measured.row));
     }
   }
   writeJson(options.writeContract, contract);
@@ -96,7 +96,10 @@ size_t checkContract(const Options& options) {
   const Ordered contract = readContract(options.check);
   size_t worse = 0;
   for (const Case& one : chosenCases(options)) {
-    for (const Ordered& row : measureLevels(one, readReferences(options.references, one))) {
+    const std::vector<Measured> levels =
+        measureLevels(one, readReferences(options.references, one));
+    for (const Measured& measured : levels) {
+      const Ordered& row = measured.row;
       for (const std::string& text : violations(row, findRow(contract, row))) {
         std::printf("%s\n", text.c_str());
         ++worse;

@@ -47,9 +47,42 @@ std::string describe(const Ordered& row, const std::string& figure, double value
   return text;
 }
 
+Measured measureMethod(World& world, const Method& method, const host::RasterResult& opaque,
+                       const References& references, const Case& one) {
+  const WlkView view = world.addView(qualityOf(method));
+  world.prepare();
+  world.render(view, opaque);
+  const host::Image picture = world.read(view);
+  const FrameCounts counts = world.counts(view);
+  Measured measured;
+  measured.isLevel = method.isLevel;
+  measured.estimate = world.estimate(view);
+  world.removeView(view);
+  measured.row = {{"case", one.name},
+                  {"level", method.name},
+                  {"counts",
+                   {{"dispatches", counts.dispatches},
+                    {"draws", counts.draws},
+                    {"invocations", counts.invocations},
+                    {"nonFinitePixels", counts.nonFinite}}},
+                  {"errors", Ordered::object()}};
+  Ordered& errors = measured.row["errors"];
+  if (method.isLevel && references.all.picture) {
+    const Ordered truth = errorsOf(picture, references.all, one);
+    measured.truth = std::sqrt(truth.value("relMSEdenoised", NAN));
+    errors["truth"] = contractErrors(truth);
+  }
+  if (!method.isLevel) {
+    const Ordered limit = errorsOf(picture, references.converged, one);
+    measured.slabs = std::sqrt(limit.at("relMSE").get<double>());
+    errors["converged"] = contractErrors(limit);
+  }
+  return measured;
+}
+
 }  // namespace
 
-std::vector<Ordered> measureLevels(const Case& one, const References& references) {
+std::vector<Measured> measureLevels(const Case& one, const References& references) {
   World shown(one, false);
   World bare(one, false, false);
   const host::RasterResult opaque = shown.makeOpaque();
@@ -59,32 +92,18 @@ std::vector<Ordered> measureLevels(const Case& one, const References& references
     const std::vector<Method> forward = forwardMethods();
     methods.insert(methods.end(), forward.begin(), forward.end());
   }
-  std::vector<Ordered> rows;
+  std::vector<Measured> all;
   for (const Method& method : methods) {
     World& world = method.settings.ambient ? shown : bare;
-    const WlkView view = world.addView(qualityOf(method));
-    world.prepare();
-    world.render(view, opaque);
-    const host::Image picture = world.read(view);
-    const FrameCounts counts = world.counts(view);
-    world.removeView(view);
-    Ordered row = {{"case", one.name},
-                   {"level", method.name},
-                   {"counts",
-                    {{"dispatches", counts.dispatches},
-                     {"draws", counts.draws},
-                     {"invocations", counts.invocations},
-                     {"nonFinitePixels", counts.nonFinite}}},
-                   {"errors", Ordered::object()}};
-    if (method.isLevel && references.all.picture) {
-      row["errors"]["truth"] = contractErrors(errorsOf(picture, references.all, one));
-    }
-    if (!method.isLevel) {
-      row["errors"]["converged"] = contractErrors(errorsOf(picture, references.converged, one));
-    }
-    rows.push_back(std::move(row));
+    all.push_back(measureMethod(world, method, opaque, references, one));
   }
-  return rows;
+  return all;
+}
+
+Measured measureBare(const Case& one, const References& references) {
+  World bare(one, false, false);
+  const Method high = levelMethods()[WLK_QUALITY_HIGH];
+  return measureMethod(bare, high, bare.makeOpaque(), references, one);
 }
 
 host::Image convergedPicture(const Case& one) {

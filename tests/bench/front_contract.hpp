@@ -2,6 +2,7 @@
 // What each quality level promises in each case: errors (no unit) and counts of one frame.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,24 @@ constexpr double ERROR_TOLERANCE = 1.10;
 /// Counts are exact; this is for a volume's cover that moves by a pixel.
 constexpr double COUNT_TOLERANCE = 1.02;
 
-/// Rows {case, level, counts, errors} of a case's levels, rendered once each.
-std::vector<Ordered> measureLevels(const Case& one, const References& references);
+struct Measured {
+  /// {case, level, counts, errors}, as in the contract.
+  Ordered row;
+  /// Of the levels' own scattering; the others are the levels with forward scattering, whose slabs
+  /// have a limit.
+  bool isLevel = true;
+  /// Relative RMS errors: against all orders, the reference's noise taken off, and against ever
+  /// thinner slabs. No unit; NaN without such a reference.
+  double truth = NAN;
+  double slabs = NAN;
+  WlkErrorEstimate estimate{};
+};
+
+/// A case's levels, rendered once each.
+std::vector<Measured> measureLevels(const Case& one, const References& references);
+
+/// Level high without the light of sky and ground.
+Measured measureBare(const Case& one, const References& references);
 
 /// The picture that the levels converge to.
 host::Image convergedPicture(const Case& one);

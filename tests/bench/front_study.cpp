@@ -57,8 +57,8 @@ struct Shot {
   FrameCounts counts;
 };
 
-// The first frame of a view that is there alone, so that the memory counted is its own, and what the
-// second records: a frame of a scene that stays.
+// The first frame of a view that is there alone, so that the memory counted is its own, and what
+// the second records: a frame of a scene that stays.
 Shot shoot(Worlds& worlds, const WlkQuality& quality, const Settings& settings) {
   World& world = worlds.of(settings);
   const WlkView view = world.addView(quality);

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// The benchmark's cases with what the levels' pictures of them are worth: measured once, for the
+// tests of the contract and of the error estimate.
+#pragma once
+
+#include <vector>
+
+#include "bench/front_contract.hpp"
+
+namespace bench {
+
+struct GateCase {
+  References references;
+  std::vector<Measured> levels;
+};
+
+std::vector<Case> gateCases();
+
+/// Renders when first asked for.
+const GateCase& gateCase(const Case& one);
+
+}  // namespace bench
