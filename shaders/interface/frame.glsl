@@ -38,8 +38,12 @@ struct FrameUniforms {
   // width of the absorber.
   vec4 skyView;
   vec4 eyeFog;          // fog without the eye's part of its peak: albedo RGB, extinction
-  vec4 fogFirst;        // 3 times its first moment, RGB; scale of the phase function
-  vec4 fogSecond;       // 5/2 of its second moment, RGB; zeniths above the horizon of the sky table
+  // Of the fog's table: vertical optical depth, 1 / log(1 + that), asymmetry of the lobe; scale of
+  // the phase function.
+  vec4 fogTable;
+  // Part of the fog's extinction that sunlight on its way to the ground sees where the moments hold
+  // the rest; w: zeniths above the horizon of the sky table.
+  vec4 skyZeniths;
   vec4 fogBound;        // largest value of the phase function without the peak, RGB, 1/sr
   // Of the map of volumes' shadow: u, v in [0, 1] and distance d along the light (m), as
   // dot((position, 1), row); least d of a volume.

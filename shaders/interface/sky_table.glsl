@@ -7,6 +7,12 @@ const int SKY_ABOVE_IN_TWILIGHT = 44;  // the edge of the planet's shadow is in 
 const int SKY_BELOW = 20;
 const int SKY_ZENITHS = SKY_ABOVE_IN_TWILIGHT + SKY_BELOW;
 const int SKY_SHARES = 6;
+// The image of what fog scatters, see src/tables/fog_light.hpp: views across, azimuths down, and
+// blocks of heights, one for each sun, in its depth.
+const int FOG_SUNS = 21;
+const int FOG_HEIGHTS = 12;
+const int FOG_AZIMUTHS = 16;
+const int FOG_VIEWS = 32;
 // The image of the moments: their blocks of altitudes one below the other, then the ground's row.
 const int MOMENT_SUNS = 48;
 const int MOMENT_ALTITUDES = 32;

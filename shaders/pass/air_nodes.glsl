@@ -71,6 +71,7 @@ AirNodes airNodes(vec3 direction, float begin, float end) {
     sum.opticalDepth = vec3(0.0f);
     sum.columns = vec3(0.0f);
     float length_ = begin;
+    float viewSun = ray.viewSun;
     float lightRadius = frame.lights[0].direction.w;
     int i = 0;
     do {
@@ -85,7 +86,7 @@ AirNodes airNodes(vec3 direction, float begin, float end) {
         vec3 source = sum.radiance / max(opacityOf(sum.opticalDepth), vec3(1.0e-20f));
         if (MULTIPLE_ENABLED) {
           vec3 opacity = opacityOf(scatteringDepth(air, sum.columns));
-          source += skySourceAt(whole, opacity, droplets) *
+          source += skySourceAt(whole, opacity, droplets, viewSun) *
                     scatteringShare(opacity, sum.opticalDepth);
         }
         nodes.source[i] = source * frame.lights[0].irradiance.xyz;

@@ -21,6 +21,7 @@ layout(set = 0, binding = 7, std430) readonly buffer FogCurve { vec4 fogCurve[];
 layout(set = 0, binding = 8) uniform sampler3D skyTable;
 layout(set = 0, binding = 9) uniform sampler3D skyPeak;
 layout(set = 0, binding = 10) uniform sampler2D skyMoments;
+layout(set = 0, binding = 13) uniform sampler3D skyFog;
 
 #include "../interface/sky_table.glsl"
 #include "ray.glsl"
@@ -51,11 +52,11 @@ vec3 multipleLight(Air air, AirRay ray, int which, float reach, vec3 columns, ve
     }
     light = march.light;
     if (FOG_ENABLED) {
-      light += min(droplets * frame.fogFirst.w, frame.fogBound.xyz) * march.peak;
+      light += fogWithoutPeak(droplets) * march.peak + fogLobe(ray.viewSun) * march.fog;
     }
   } else {
     vec3 opacity = opacityOf(scatteringDepth(air, columns));
-    light = skySourceAt(skyTableRay(ray, which), opacity, droplets) * opacity;
+    light = skySourceAt(skyTableRay(ray, which), opacity, droplets, ray.viewSun) * opacity;
   }
   return light;
 }
@@ -95,10 +96,14 @@ PixelLayer layeredAir(Air air, vec3 direction, float reach, bool ends) {
 // Radiance of the bare planet where a ray meets it.
 vec3 groundRadiance(Air air, vec3 direction, float ground) {
   vec3 sum = vec3(0.0f);
+  Air above = air;
+  if (FOG_ENABLED && MULTIPLE_ENABLED) {
+    above.fogExtinction *= frame.skyZeniths.x;
+  }
   for (int i = 0; i < int(LIGHT_COUNT); ++i) {
     LightUniforms light = frame.lights[i];
     AirRay foot = advanceRay(air, airRayOf(frame, light, direction), ground);
-    vec3 sun = exp(-lightOpticalDepth(air, 0.0f, foot.sunMu));
+    vec3 sun = exp(-lightOpticalDepth(above, 0.0f, foot.sunMu));
     float visible = lightVisibility(air, 0.0f, foot.sunMu, light.direction.w);
     vec3 irradiance = sun * (max(foot.sunMu, 0.0f) * visible);
     if (SHADOWS_ENABLED && i == 0) {

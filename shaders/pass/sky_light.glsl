@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Light in air and fog that was scattered or reflected before it reached a ray, per unit irradiance
-// of the light (1/sr): the moments of src/tables/sky_field.hpp gathered along the ray. What differs
-// between this text and SkyField::higherOrdersAlong is held by tests/image/sky_light_test.cpp.
-const float ISOTROPIC_PHASE = 0.0795774715f;
+// of the light (1/sr): the moments of src/tables/sky_field.hpp and the fog's table of
+// src/tables/fog_light.hpp gathered along the ray. What differs between this text and
+// SkyField::higherOrdersAlong is held by tests/image/sky_light_test.cpp.
 
 // A sun among four nodes in a row, as sunNodes() of src/tables/sky_table.hpp: cubic, at the texels'
 // centres, as filters of 8 bits would show in twilight.
@@ -51,10 +51,9 @@ vec3 groundLight(float sunMu) {
   return frame.skyLight.z * max(light, vec3(0.0f));
 }
 
-// Integrals over all directions w of L, of L (v w) and of L (v w)^2.
+// Integrals over all directions w of L and of L (v w)^2.
 struct SkyMoments {
   vec3 mean;
-  vec3 along;
   vec3 square;
 };
 
@@ -79,14 +78,39 @@ SkyMoments skyMomentsAt(float altitude, float sunMu, vec3 v) {
   SkyMoments m;
   m.mean = xx + yy + zz;
   m.square = v.x * v.x * xx + v.y * v.y * yy + v.z * v.z * zz + 2.0f * v.x * v.y * xy;
-  m.along = vec3(0.0f);
-  if (FOG_ENABLED) {
-    m.along = v.x * momentAt(row, sun, 4) + v.y * momentAt(row, sun, 5);
-  }
   m.mean *= frame.skyLight.z;
   m.square *= frame.skyLight.z;
-  m.along *= frame.skyLight.z;
   return m;
+}
+
+// Relative error 3e-7.
+float logOnePlus(float x) {
+  return x > 1.0e-2f ? log(1.0f + x) : x * (1.0f - x * (0.5f - x / 3.0f));
+}
+
+// What fog scatters into a direction of the light around it, over lobe(), as FogLight::sourceAt();
+// in twilight it darkens as the ground does. v: as for skyMomentsAt().
+vec3 fogSourceAt(float altitude, float sunMu, vec3 v) {
+  const float PER_PI = 0.318309886f;
+  float flat_ = sqrt(max((1.0f - v.y) * (1.0f + v.y), 0.0f));
+  float above =
+      frame.fogTable.x * safeExp(-clamp(altitude / frame.skyView.z, 0.0f, 30.0f));
+  vec3 node;
+  node.x = PER_PI * acos(v.y) * float(FOG_VIEWS - 1);
+  node.y = sqrt(PER_PI * acos(clamp(v.x / max(flat_, 1.0e-6f), -1.0f, 1.0f))) *
+           float(FOG_AZIMUTHS - 1);
+  node.z = min(logOnePlus(above) * frame.fogTable.y, 1.0f) * float(FOG_HEIGHTS - 1);
+  float high = 2.0f * PER_PI * asin(clamp(sunMu, 0.0f, 1.0f));
+  float sun = exp(log(max(high, 1.0e-12f)) * (2.0f / 3.0f)) * float(FOG_SUNS - 1);
+  float low = min(floor(sun), float(FOG_SUNS - 2));
+  node.z += low * float(FOG_HEIGHTS);
+  vec3 size = vec3(float(FOG_VIEWS), float(FOG_AZIMUTHS), float(FOG_SUNS * FOG_HEIGHTS));
+  vec3 uvw = (node + 0.5f) / size;
+  vec3 a = textureLod(skyFog, uvw, 0.0f).xyz;
+  vec3 b = textureLod(skyFog, uvw + vec3(0.0f, 0.0f, float(FOG_HEIGHTS) / size.z), 0.0f).xyz;
+  vec3 light = mix(a, b, sun - low);
+  vec3 now = groundLight(min(sunMu, 0.0f));
+  return light * min(now / max(groundLight(0.0f), vec3(1.0e-30f)), vec3(1.0f));
 }
 
 // A ray as far as it was gathered.
@@ -96,6 +120,8 @@ struct SkyMarch {
   vec3 light;
   // First order of what fog turned within its forward peak only, per unit of its phase function.
   vec3 peak;
+  // What fog scattered of other light, over lobe().
+  vec3 fog;
 };
 
 SkyMarch skyMarchBegin(Air air, AirPath path) {
@@ -104,6 +130,7 @@ SkyMarch skyMarchBegin(Air air, AirPath path) {
   march.columns = vec3(0.0f);
   march.light = vec3(0.0f);
   march.peak = vec3(0.0f);
+  march.fog = vec3(0.0f);
   return march;
 }
 
@@ -145,9 +172,7 @@ SkyMarch skyMarchTo(Air air, AirPath path, SkyMarch march, float t, float lightR
   // Cubics may run below zero in the dark.
   march.light += seen * airPart * RAYLEIGH_NORM * max(m.mean + m.square, vec3(0.0f));
   if (FOG_ENABLED) {
-    vec3 source = m.mean + frame.fogFirst.xyz * m.along +
-                  frame.fogSecond.xyz * (3.0f * m.square - m.mean);
-    march.light += seen * fogPart * ISOTROPIC_PHASE * max(source, vec3(0.0f));
+    march.fog += seen * fogPart * fogSourceAt(altitude, sunMu, v) * frame.skyLight.z;
     // Light of the peak: first order in the eye's air, less first order in all of the fog.
     vec3 seenLess = seenThrough(depthOfColumns(air, march.columns), depthOfColumns(air, own));
     vec3 sun = safeExp3(-lightOpticalDepth(eyeAir, altitude, sunMu));

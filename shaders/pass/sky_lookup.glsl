@@ -10,7 +10,7 @@ const float LAST_ZENITH = float(SKY_BELOW - 1) - 1.0f / 64.0f;
 // how the camera is turned.
 vec2 skyTableDirection(AirRay ray, int light) {
   float horizon = frame.skyView.x;
-  float above = frame.fogSecond.w;
+  float above = frame.skyZeniths.w;
   bool below = ray.viewMu < horizon;
   float range = below ? 1.0f + horizon : frame.skyView.y - horizon;
   float rise = clamp(abs(ray.viewMu - horizon) / max(range, 1.0e-12f), 0.0f, 1.0f);
@@ -53,14 +53,32 @@ SkyTableRay skyTableRay(AirRay ray, int light) {
   return result;
 }
 
+// Two tables of what fog adds, one behind the other: per unit of its phase function without the
+// eye's part of its peak, and of fogLobe().
+vec3 skyPeakUvw(vec3 uvw, float which) {
+  return vec3(uvw.xy, 0.5f * (uvw.z + which));
+}
+
+vec3 fogWithoutPeak(vec3 droplets) {
+  return min(droplets * frame.fogTable.w, frame.fogBound.xyz);
+}
+
+// As FogLight::lobe().
+float fogLobe(float viewSun) {
+  const float PEAKED = 0.75f;
+  float g = frame.fogTable.z;
+  float apart = (1.0f - g) * (1.0f - g) + 2.0f * g * (1.0f - clamp(viewSun, -1.0f, 1.0f));
+  return (1.0f - PEAKED) + PEAKED * (1.0f - g * g) / (apart * sqrt(apart));
+}
+
 // Mean source of the part of the ray with this opacity. droplets: the fog's phase function.
-vec3 skySourceAt(SkyTableRay ray, vec3 opacity, vec3 droplets) {
+vec3 skySourceAt(SkyTableRay ray, vec3 opacity, vec3 droplets, float viewSun) {
   float share = clamp(opacity.y / max(ray.total, 1.0e-30f), 0.0f, 1.0f);
   vec3 uvw = skyTableUvw(ray.direction, share);
   vec3 source = textureLod(skyTable, uvw, 0.0f).xyz;
   if (FOG_ENABLED) {
-    vec3 phase = min(droplets * frame.fogFirst.w, frame.fogBound.xyz);
-    source += phase * textureLod(skyPeak, uvw, 0.0f).xyz;
+    source += fogWithoutPeak(droplets) * textureLod(skyPeak, skyPeakUvw(uvw, 0.0f), 0.0f).xyz;
+    source += fogLobe(viewSun) * textureLod(skyPeak, skyPeakUvw(uvw, 1.0f), 0.0f).xyz;
   }
   return source;
 }

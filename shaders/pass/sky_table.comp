@@ -12,6 +12,7 @@ layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
 layout(set = 0, binding = 1) uniform sampler2D skyMoments;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image3D skyTable;
 layout(set = 0, binding = 3, rgba32f) uniform writeonly image3D skyPeak;
+layout(set = 0, binding = 4) uniform sampler3D skyFog;
 
 // Air alone: the table holds its light of all orders, and by phase function of air, so that pixels
 // need no more.
@@ -41,6 +42,7 @@ float opacityTo(Air air, AirPath path, AirPoint first, AirPoint lowest, float t)
 struct Node {
   vec3 light;
   vec3 peak;
+  vec3 fog;
   vec3 opacity;
   float distance_;
 };
@@ -49,6 +51,7 @@ Node between(Node a, Node b, float part) {
   Node node;
   node.light = mix(a.light, b.light, part);
   node.peak = mix(a.peak, b.peak, part);
+  node.fog = mix(a.fog, b.fog, part);
   node.opacity = mix(a.opacity, b.opacity, part);
   node.distance_ = mix(a.distance_, b.distance_, part);
   return node;
@@ -76,7 +79,7 @@ FirstOrder firstOrderTo(Air air, FirstOrder sum, float distance_, float radius) 
 void main() {
   ivec2 place = ivec2(gl_GlobalInvocationID.xy);
   int which = place.x / SKY_AZIMUTHS;
-  int above = int(frame.fogSecond.w);
+  int above = int(frame.skyZeniths.w);
   if (place.x >= imageSize(skyTable).x || place.y >= above + SKY_BELOW) {
     return;
   }
@@ -86,6 +89,7 @@ void main() {
       imageStore(skyTable, ivec3(place, k), vec4(0.0f));
       if (FOG_ENABLED) {
         imageStore(skyPeak, ivec3(place, k), vec4(0.0f));
+        imageStore(skyPeak, ivec3(place, k + SKY_SHARES), vec4(0.0f));
       }
     }
     return;
@@ -120,7 +124,7 @@ void main() {
   Node nodes[SKY_SHARES];
   int share = 0;
   Node here;
-  here.light = here.peak = here.opacity = vec3(0.0f);
+  here.light = here.peak = here.fog = here.opacity = vec3(0.0f);
   here.distance_ = 0.0f;
   float x = 0.0f;
   const int COUNT = FOG_ENABLED ? STEPS + FOG_STEPS_MORE : STEPS;
@@ -144,6 +148,7 @@ void main() {
     Node next;
     next.light = march.light;
     next.peak = march.peak;
+    next.fog = march.fog;
     next.opacity = opacityOf(scatteringDepth(air, march.columns));
     next.distance_ = march.at.distance;
     for (int k = 0; k < SKY_SHARES; ++k) {
@@ -174,8 +179,9 @@ void main() {
     }
     imageStore(skyTable, ivec3(place, k), vec4(source, total));
     if (FOG_ENABLED) {
-      vec3 peak = node.peak / max(node.opacity, vec3(1.0e-30f));
-      imageStore(skyPeak, ivec3(place, k), vec4(peak, 0.0f));
+      vec3 share_ = 1.0f / max(node.opacity, vec3(1.0e-30f));
+      imageStore(skyPeak, ivec3(place, k), vec4(node.peak * share_, 0.0f));
+      imageStore(skyPeak, ivec3(place, k + SKY_SHARES), vec4(node.fog * share_, 0.0f));
     }
   }
 }

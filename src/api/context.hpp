@@ -93,6 +93,7 @@ struct WlkContext_T {
   std::shared_ptr<const welkin::SkyField> shownField;
   uint64_t shownFieldVersion = 0;
   std::unique_ptr<welkin::SkyLightWork> skyLightWork;  // for an air that has changed
+  welkin::ViewLights viewLights;
   welkin::HandlePool<welkin::MediumState> media;
   welkin::HandlePool<welkin::VolumeState> volumes;
   welkin::HandlePool<welkin::ViewState> views;

@@ -69,6 +69,14 @@ void uploadSkyLight(WlkContext_T& c, VkCommandBuffer commands) {
   region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
   region.imageExtent = light.moments.info().extent;
   copyInto(c.device->vk(), commands, light.staging, light.moments, region, false);
+  if (light.fogStaged) {
+    const VkExtent3D& size = region.imageExtent;
+    region.bufferOffset = VkDeviceSize{4} * sizeof(float) * size.width * size.height;
+    region.imageExtent = light.fog.info().extent;
+    copyInto(c.device->vk(), commands, light.staging, light.fog, region, false);
+    light.fogStaged = false;
+    ++c.updateCopies;
+  }
   light.now = light.staged;
   ++light.version;
   c.bytesUploaded += light.staging.size();
@@ -361,7 +369,7 @@ WlkResult wlkPrepare(WlkContext context) {
       features.space = nearSpace(c, *view);
       chooseStores(c, *view, features);
       prepareView(device, *c.pipelines, carrier, c.volumes.count(), c.maxFramesInFlight, features,
-                  {fieldKinds.data(), kinds}, &c.memory);
+                  {fieldKinds.data(), kinds}, c.viewLights, &c.memory);
       view->plan.volumes.reserve(c.volumes.count());
       view->planVolumes.reserve(c.volumes.count());
       view->plan.surfaces.reserve(c.surfaces.count());

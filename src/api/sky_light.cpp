@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "api/sky_light.hpp"
 
+#include <cmath>
 #include <cstring>
 
 #include "api/sky_query.hpp"
@@ -34,6 +35,10 @@ static_assert(ROWS == interface_::MOMENT_ROWS);
 static_assert(SkyField::SUNS == interface_::MOMENT_SUNS);
 static_assert(SkyField::ALTITUDES == interface_::MOMENT_ALTITUDES);
 constexpr size_t ROW_FLOATS = SkyField::SUNS * LANES;
+static_assert(FogLight::SUNS == interface_::FOG_SUNS);
+static_assert(FogLight::HEIGHTS == interface_::FOG_HEIGHTS);
+static_assert(FogLight::AZIMUTHS == interface_::FOG_AZIMUTHS);
+static_assert(FogLight::VIEWS == interface_::FOG_VIEWS);
 
 void fillRows(const SkyField& field, float* rows) {
   for (size_t a = 0; a < SkyField::ALTITUDES; ++a) {
@@ -46,6 +51,19 @@ void fillRows(const SkyField& field, float* rows) {
     }
   }
   std::memcpy(rows + (ROWS - 1) * ROW_FLOATS, field.irradiance().data(), ROW_FLOATS * sizeof *rows);
+  if (field.fogLight() != nullptr) {
+    const std::vector<float>& table = field.fogLight()->table();
+    std::memcpy(rows + ROWS * ROW_FLOATS, table.data(), table.size() * sizeof *rows);
+  }
+}
+
+vk::Image imageOf(WlkContext_T& c, VkImageType type, const VkExtent3D& extent) {
+  vk::ImageInfo info;
+  info.type = type;
+  info.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+  info.extent = extent;
+  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  return vk::Image(*c.device, info);
 }
 
 glm::vec4 colour(const SkyColor& c, double w) {
@@ -59,15 +77,15 @@ SkyLightConstants constantsOf(const SkyField& field, const AirInput& air) {
   light.top = field.top();
   light.fogShare = field.air().fogExtinction > 0 ? SkyAxes::FOG_SHARE : 0;
   const AirInput& eye = field.eyeAir();
-  SkyColor first{};
-  SkyColor second{};
-  for (size_t k = 0; k < 3; ++k) {
-    first[k] = 3 * field.eyeMoments()[0][k];
-    second[k] = 2.5 * field.eyeMoments()[1][k];
-  }
   light.eyeFog = colour({eye.fogAlbedo[0], eye.fogAlbedo[1], eye.fogAlbedo[2]}, eye.fogExtinction);
-  light.fogFirst = colour(first, 1 / (1 - field.eyePeak()));
-  light.fogSecond = colour(second, 0);
+  if (air.fogExtinction > 0) {
+    light.groundFog = static_cast<float>(field.air().fogExtinction / air.fogExtinction);
+  }
+  if (field.fogLight() != nullptr) {
+    const FogLight& fog = *field.fogLight();
+    light.fogTable = colour({fog.depth(), 1 / std::log1p(fog.depth()), fog.asymmetry()},
+                            1 / (1 - field.eyePeak()));
+  }
   light.fogBound = colour(field.fogBound(), 0);
   return light;
 }
@@ -97,20 +115,26 @@ SkyLightSource sourceOf(const WlkContext_T& c, const AirQuery& query) {
 // Hands a field over to the next recordUpdate, or changes nothing.
 void stage(WlkContext_T& c, const SkyField& field, const SkyLightSource& source) {
   vk::Image made;
+  vk::Image fog;
   if (!c.skyLight.moments) {
-    vk::ImageInfo info;
-    info.format = VK_FORMAT_R32G32B32A32_SFLOAT;
-    info.extent = {SkyField::SUNS, ROWS, 1};
-    info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    made = vk::Image(*c.device, info);
+    made = imageOf(c, VK_IMAGE_TYPE_2D, {SkyField::SUNS, ROWS, 1});
   }
-  vk::Buffer staging(*c.device, ROWS * ROW_FLOATS * sizeof(float), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                     true);
+  const bool foggy = field.fogLight() != nullptr;
+  if (foggy && !c.skyLight.fog) {
+    fog = imageOf(c, VK_IMAGE_TYPE_3D,
+                  {FogLight::VIEWS, FogLight::AZIMUTHS, FogLight::SUNS * FogLight::HEIGHTS});
+  }
+  const size_t floats = ROWS * ROW_FLOATS + (foggy ? FogLight::VALUES : 0);
+  vk::Buffer staging(*c.device, floats * sizeof(float), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true);
   fillRows(field, static_cast<float*>(staging.data()));
   c.skyLight.staging = std::move(staging);
   if (made) {
     c.skyLight.moments = std::move(made);
   }
+  if (fog) {
+    c.skyLight.fog = std::move(fog);
+  }
+  c.skyLight.fogStaged = foggy;
   c.shownField = std::make_shared<const SkyField>(field);
   ++c.shownFieldVersion;
   c.skyLight.staged = constantsOf(field, source.air);

@@ -31,9 +31,9 @@ SkyFieldInput fieldInputOf(const AirState& state, const AirQuery& query,
   } else if (query.air.fogExtinction > 0) {
     const PhaseCurve curve = curveOf(*query.droplets);
     for (size_t c = 0; c < 3; ++c) {
-      std::array<double, 4> chi{};
+      std::array<double, FOG_TERMS + 1> chi{};
       legendreMoments(curve.y, curve.value[c], chi);
-      for (size_t l = 0; l < 3; ++l) {
+      for (size_t l = 0; l < FOG_TERMS; ++l) {
         input.fogMoments[l][c] = chi[l + 1];
       }
     }

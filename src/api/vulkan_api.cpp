@@ -155,7 +155,7 @@ bool everythingUploaded(const WlkContext_T& c) {
   const auto blank = [](const vk::Image& image) {
     return image && image.layout == VK_IMAGE_LAYOUT_UNDEFINED;
   };
-  if (blank(c.dummy2d) || blank(c.skyLight.moments)) {
+  if (blank(c.dummy2d) || blank(c.skyLight.moments) || blank(c.skyLight.fog)) {
     return false;
   }
   for (uint32_t i = 0; i < c.volumes.slotCount(); ++i) {

@@ -137,7 +137,8 @@ void recordAmbient(FrameCommands& c, const PlannedVolume& planned, VkDeviceSize 
   const RecordVolume& volume = c.in.volumes[planned.index];
   const VolumeState& state = *volume.state;
   const TransportShape shape = transportShape(state, c.quality.ambientCells);
-  TransportGrid& grid = r.ambientGrids[planned.index];
+  AmbientGrid& light = *r.ambientGrids[planned.index];
+  TransportGrid& grid = light.grid;
   BoundSet& set = c.slot.ambient[planned.index];
   const VkDeviceSize offset =
       c.in.slot * r.slotStride + r.ambientOffset + planned.index * r.ambientStride;
@@ -162,18 +163,19 @@ void recordAmbient(FrameCommands& c, const PlannedVolume& planned, VkDeviceSize 
   AmbientRecorder recorder(c, shape.cells, state.fieldKind(), planned.ambientWhole, stats);
   const uint64_t whole = planned.ambientWhole ? 1 : 0;
   const bool same = remembered(grid, uniforms, {planned.id, state.version, whole});
+  // Once a frame, by whichever view comes first.
+  const bool written = (external || light.external) && light.frame != c.in.frameIndex;
   stats.reason = c.quality.noSkip ? uint32_t{WLK_REASON_NO_SKIP_FLAG} : planned.ambientReason;
-  if (!same || c.quality.noSkip || external) {
-    if (!same || external) {
+  if (!same || c.quality.noSkip || written) {
+    if (!same || written) {
       stats.reason = planned.ambientReason;
     }
     recorder.compute();
   } else {
     stats.reason = WLK_REASON_UNCHANGED;
   }
-  if (external) {
-    grid.key.clear();  // what was uploaded may be back in the next frame
-  }
+  light.external = external;
+  light.frame = c.in.frameIndex;
   recorder.show();
 }
 

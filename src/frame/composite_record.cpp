@@ -51,6 +51,8 @@ void bindLayer(Bindings& bindings, const vk::Pipelines& pipelines, const ViewSta
                 {vk::BIND_COMPOSITE_SKY_TABLE, vk::BIND_COMPOSITE_SKY_PEAK}, in);
   bindings.image(set, vk::BIND_COMPOSITE_SKY_MOMENTS, momentsOf(in), pipelines.linear(),
                  VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+  bindings.image(set, vk::BIND_COMPOSITE_SKY_FOG, fogLightOf(in), pipelines.linear(),
+                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   const bool shadow = r.shadowImage && r.shadowImage.layout != VK_IMAGE_LAYOUT_UNDEFINED;
   bindings.image(set, vk::BIND_COMPOSITE_SHADOW, shadow ? r.shadowImage.view() : in.dummy2d,
                  pipelines.linear(),

@@ -76,7 +76,7 @@ VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t vol
                            slots * ((3 + more) * volumes + spread + 5 + 2 * more)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                            slots * ((24 + 14 * more) * volumes + 5 * spread +
-                                    12 * SURFACE_PICTURES * surfaces + 8 + 7 * more)}};
+                                    12 * SURFACE_PICTURES * surfaces + 10 + 8 * more)}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.maxSets = sets;
   info.poolSizeCount = static_cast<uint32_t>(sizes.size());
@@ -161,6 +161,7 @@ void makeSkyTables(vk::Device& device, const SceneFeatures& features, ViewResour
   info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
   r.skyTable = vk::Image(device, info);
   if (features.fog) {
+    info.extent.depth = 2 * interface_::SKY_SHARES;  // see sky_lookup.glsl
     r.skyPeak = vk::Image(device, info);
   }
 }
@@ -173,7 +174,7 @@ void checkCells(const vk::Device& device, VkDeviceSize bytes, uint32_t cells) {
 }
 
 void makeTransport(vk::Device& device, const SliceQuality& quality, uint32_t volumes,
-                   ViewResources& r) {
+                   SharedLights<VolumeLight>& lights, ViewResources& r) {
   const TransportSizes sizes =
       transportSizes({quality.transportCells, quality.transportCells, quality.transportCells});
   checkCells(device, std::max({sizes.workBytes, sizes.sweptBytes, sizes.keptBytes}),
@@ -186,15 +187,21 @@ void makeTransport(vk::Device& device, const SliceQuality& quality, uint32_t vol
   if (!spread) {
     r.transportWork = work();
   }
-  r.volumeLights.resize(volumes);
-  for (VolumeLight& light : r.volumeLights) {
-    if (spread) {
-      light.work = work();
-    }
-    for (uint32_t i = 0; i < r.transportLights; ++i) {
-      light.grids[i].kept = list(sizes.keptBytes);
-      light.grids[i].key.reserve(sizeof(interface_::TransportUniforms) + TRANSPORT_IDS);
-    }
+  constexpr size_t KEY = sizeof(interface_::TransportUniforms) + TRANSPORT_IDS;
+  for (uint32_t v = 0; v < volumes; ++v) {
+    const LightShape shape{v, quality.transportCells, quality.lightFrames};
+    r.volumeLights.push_back(lights.of(shape, [&] {
+      VolumeLight light;
+      if (spread) {
+        light.work = work();
+      }
+      for (uint32_t i = 0; i < r.transportLights; ++i) {
+        light.grids[i].kept = list(sizes.keptBytes);
+        light.grids[i].key.reserve(KEY);
+      }
+      light.key.reserve(KEY);
+      return light;
+    }));
   }
   vk::ImageInfo info;
   info.type = VK_IMAGE_TYPE_3D;
@@ -206,15 +213,20 @@ void makeTransport(vk::Device& device, const SliceQuality& quality, uint32_t vol
 }
 
 void makeAmbient(vk::Device& device, const SliceQuality& quality, uint32_t volumes,
-                 ViewResources& r) {
+                 SharedLights<AmbientGrid>& lights, ViewResources& r) {
   const uint32_t cells = quality.ambientCells;
   const AmbientSizes sizes = ambientSizes({cells, cells, cells});
   checkCells(device, std::max(sizes.workBytes, sizes.keptBytes), cells);
   r.ambientWork = vk::Buffer(device, sizes.workBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
-  r.ambientGrids.resize(volumes);
-  for (TransportGrid& grid : r.ambientGrids) {
-    grid.kept = vk::Buffer(device, sizes.keptBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
-    grid.key.reserve(sizeof(interface_::AmbientUniforms) + 3 * sizeof(uint64_t));
+  for (uint32_t v = 0; v < volumes; ++v) {
+    // Beside the sun's light of all orders it holds other orders than alone.
+    r.ambientGrids.push_back(lights.of({v, cells, quality.transport ? 1U : 0U}, [&] {
+      AmbientGrid light;
+      light.grid.kept =
+          vk::Buffer(device, sizes.keptBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
+      light.grid.key.reserve(sizeof(interface_::AmbientUniforms) + 3 * sizeof(uint64_t));
+      return light;
+    }));
   }
   vk::ImageInfo info;
   info.type = VK_IMAGE_TYPE_3D;
@@ -281,7 +293,8 @@ VkFormat targetFormat(uint32_t welkinFormat) {
 
 void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
                  uint32_t volumeCount, uint32_t framesInFlight, const SceneFeatures& features,
-                 std::span<const uint32_t> fieldKinds, std::pmr::memory_resource* memory) {
+                 std::span<const uint32_t> fieldKinds, ViewLights& lights,
+                 std::pmr::memory_resource* memory) {
   const SliceQuality quality = roomFor(view.quality);
   const WlkViewInfo& info = view.info;
   preparePipelines(pipelines, view, features, fieldKinds);
@@ -305,8 +318,8 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   r.ambientStride = ambient ? alignUp(sizeof(interface_::AmbientUniforms), alignment) : 0;
   r.surfaceStride = alignUp(sizeof(interface_::SurfaceUniforms), alignment);
   r.transportLights = quality.transport && quality.lightFrames > 1 ? SPREAD_LIGHTS : 1;
-  const uint32_t lights = volumeCount * r.transportLights;
-  r.surfaceOffset = alignUp(r.transportOffset + lights * r.transportStride, both);
+  const uint32_t grids = volumeCount * r.transportLights;
+  r.surfaceOffset = alignUp(r.transportOffset + grids * r.transportStride, both);
   r.ambientOffset = alignUp(
       r.surfaceOffset + VkDeviceSize{SURFACE_PICTURES} * features.surfaces * r.surfaceStride, both);
   r.slotStride = r.ambientOffset + alignUp(volumeCount * (r.ambientStride + r.volumeStride), both);
@@ -351,10 +364,10 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
       r.lightBuffer = vk::Image(device, light);
     }
     if (quality.transport) {
-      makeTransport(device, quality, volumeCount, r);
+      makeTransport(device, quality, volumeCount, lights.sun, r);
     }
     if (ambient) {
-      makeAmbient(device, quality, volumeCount, r);
+      makeAmbient(device, quality, volumeCount, lights.ambient, r);
     }
     if (quality.volumeShadows) {
       makeViewShadow(device, pipelines, volumeCount, framesInFlight, fieldKinds, r);

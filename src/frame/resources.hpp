@@ -5,6 +5,7 @@
 #include <span>
 
 #include "frame/scene.hpp"
+#include "frame/shared_lights.hpp"
 #include "frame/uniforms.hpp"
 
 namespace welkin {
@@ -24,6 +25,12 @@ struct SceneFeatures {
   uint32_t surfaces = 0;
 };
 
+// What views share.
+struct ViewLights {
+  SharedLights<VolumeLight> sun;
+  SharedLights<AmbientGrid> ambient;
+};
+
 VkFormat targetFormat(uint32_t welkinFormat);
 
 // Lines that a view's statistics have at most.
@@ -35,7 +42,8 @@ constexpr size_t passRoom(size_t volumes, size_t surfaces) {
 // view keeps what it had.
 void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
                  uint32_t volumeCount, uint32_t framesInFlight, const SceneFeatures& features,
-                 std::span<const uint32_t> fieldKinds, std::pmr::memory_resource* memory);
+                 std::span<const uint32_t> fieldKinds, ViewLights& lights,
+                 std::pmr::memory_resource* memory);
 void destroyView(vk::Device& device, ViewState& view);
 
 // Builds the volume's scattering tables of a form (SliceQuality::form) and the staging copy of

@@ -226,15 +226,17 @@ struct SkyLightConstants {
   double fogExtinction = 0;
   double fogScaleHeight = 1;
   glm::vec4 eyeFog{0};
-  glm::vec4 fogFirst{0};
-  glm::vec4 fogSecond{0};
+  glm::vec4 fogTable{0};
+  float groundFog = 1;  // of the fog's extinction, what keeps the light's peak from the ground
   glm::vec4 fogBound{0};
 };
 
 // Light scattered more than once, as the passes read it.
 struct SkyLightState {
   vk::Image moments;   // blocks of altitudes by suns, one below the other; last row: the ground's
-  vk::Buffer staging;  // until they are uploaded
+  vk::Image fog;       // see src/tables/fog_light.hpp; nothing until there is fog
+  vk::Buffer staging;  // until they are uploaded; the fog's table behind the moments
+  bool fogStaged = false;
   SkyLightConstants staged;
   SkyLightConstants now;  // of what is in `moments`
   uint64_t version = 0;
@@ -245,10 +247,17 @@ struct SkyLightState {
 // What a view's sky table was made for: it changes with these numbers only.
 using SkyTableKey = std::array<float, 56>;
 
-// The light inside a volume that a view shows, and what it was computed from.
+// The light inside a volume that views show, and what it was computed from.
 struct TransportGrid {
   vk::Buffer kept;
   std::vector<char> key;  // uniforms, volume and its version; empty: nothing yet
+};
+
+// The light of sky and ground there.
+struct AmbientGrid {
+  TransportGrid grid;
+  uint64_t frame = 0;     // that last showed it
+  bool external = false;  // from images that the engine may have written since
 };
 
 // Lists that the light inside a volume is computed in.
@@ -262,7 +271,11 @@ struct VolumeLight {
   std::array<TransportGrid, SPREAD_LIGHTS> grids;  // the first alone where it is computed at once
   TransportWork work;                              // empty: the view's
   LightSchedule schedule;
-  glm::dvec3 toLight{0};  // in the frame that was recorded last
+  // Of the frame that was recorded last, by whichever view came first.
+  glm::dvec3 toLight{0};
+  uint64_t frame = 0;
+  LightStep step;
+  std::vector<char> key;  // as of a grid
 };
 
 struct ViewSlot {
@@ -352,12 +365,13 @@ struct ViewResources {
   uint32_t transportLights = 1;  // grids of each volume
   VkDeviceSize transportStride = 0;
   VkDeviceSize transportOffset = 0;
-  std::pmr::vector<VolumeLight> volumeLights;  // by PlannedVolume::index
+  // By PlannedVolume::index; views of like quality share them.
+  std::pmr::vector<std::shared_ptr<VolumeLight>> volumeLights;
   vk::Image viewAmbient;                       // as viewSource, of the light of sky and ground
   vk::Buffer ambientWork;
   VkDeviceSize ambientStride = 0;
   VkDeviceSize ambientOffset = 0;
-  std::pmr::vector<TransportGrid> ambientGrids;  // by PlannedVolume::index
+  std::pmr::vector<std::shared_ptr<AmbientGrid>> ambientGrids;  // likewise
   ShadowMapState shadow;
   vk::Image shadowImage;  // where the quality asks for shadows on the air
   std::pmr::vector<ShadowCaster> shadowCasters;

@@ -7,6 +7,10 @@ VkImageView momentsOf(const RecordInput& in) {
   return in.sky->version > 0 ? in.sky->moments.view() : in.dummy2d;
 }
 
+VkImageView fogLightOf(const RecordInput& in) {
+  return in.sky->version > 0 && in.sky->fog ? in.sky->fog.view() : in.dummy3d;
+}
+
 void bindSkyTable(Bindings& bindings, const vk::Pipelines& pipelines, const ViewResources& r,
                   BoundSet& set, const RecordInput& in) {
   bindings.buffer(set, vk::BIND_SKY_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(),
@@ -18,6 +22,8 @@ void bindSkyTable(Bindings& bindings, const vk::Pipelines& pipelines, const View
                  VK_IMAGE_LAYOUT_GENERAL);
   bindings.image(set, vk::BIND_SKY_PEAK_STORAGE, peak.view(), VK_NULL_HANDLE,
                  VK_IMAGE_LAYOUT_GENERAL);
+  bindings.image(set, vk::BIND_SKY_FOG, fogLightOf(in), pipelines.linear(),
+                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
 void bindSkyLookup(Bindings& bindings, const vk::Pipelines& pipelines, const ViewResources& r,

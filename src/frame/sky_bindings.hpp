@@ -14,6 +14,8 @@ struct SkyLookupBindings {
 
 // The moments, or an image in their place where there are none.
 VkImageView momentsOf(const RecordInput& in);
+// What fog scatters of other light, likewise.
+VkImageView fogLightOf(const RecordInput& in);
 
 // For the pass that writes the tables.
 void bindSkyTable(Bindings& bindings, const vk::Pipelines& pipelines, const ViewResources& r,

@@ -83,9 +83,13 @@ bool equal(const LightKey& a, const LightKey& b) {
   return std::equal(x, x + sizeof a, reinterpret_cast<const char*>(&b));
 }
 
-void remember(TransportGrid& grid, const LightKey& key) {
+void remember(std::vector<char>& kept, const LightKey& key) {
   const auto* bytes = reinterpret_cast<const char*>(&key);
-  grid.key.assign(bytes, bytes + sizeof key);  // reserved
+  kept.assign(bytes, bytes + sizeof key);  // reserved
+}
+
+bool isKept(const std::vector<char>& kept, const LightKey& key) {
+  return kept.size() == sizeof key && std::memcmp(kept.data(), &key, sizeof key) == 0;
 }
 
 // Whether both are of one volume as it is, under whatever light.
@@ -144,7 +148,7 @@ TransportCommands recordTransport(const vk::Device& device, const vk::Pipelines&
   const VolumeState& state = *volume.state;
   const SliceQuality& quality = view.plan.quality;
   const TransportShape shape = transportShape(state, quality.transportCells);
-  VolumeLight& light = r.volumeLights[planned.index];
+  VolumeLight& light = *r.volumeLights[planned.index];
   const glm::dvec3 toLight = view.plan.lights.light[0].toLight;
   LightKey now{};
   fillTransport(state, toLight, shape, now.uniforms);
@@ -154,11 +158,20 @@ TransportCommands recordTransport(const vk::Device& device, const vk::Pipelines&
       std::memcpy(&now.ids[2 + i], &volume.externalViews[i], sizeof now.ids[2 + i]);
     }
   }
-  const LightStep step = light.schedule.next(
-      always ? LightChange::Other : changeOf(light, now, toLight), quality.lightFrames);
-  light.toLight = toLight;
+  if (!always && light.frame == in.frameIndex && isKept(light.key, now)) {
+    // Another view of the frame has seen to it.
+    light.step.to = 0;
+    light.step.begins = false;
+  } else {
+    light.step = light.schedule.next(always ? LightChange::Other : changeOf(light, now, toLight),
+                                     quality.lightFrames);
+    light.toLight = toLight;
+    light.frame = in.frameIndex;
+    remember(light.key, now);
+  }
+  const LightStep& step = light.step;
   if (step.begins) {
-    remember(light.grids[step.target], now);
+    remember(light.grids[step.target].key, now);
   }
 
   // Makes a grid that of the passes that follow.

@@ -45,9 +45,9 @@ void fillSky(const AirState& air, double altitude, const Plan& plan, const SkyLi
   // The eye's fog is a part of the scene's, which may be thicker or thinner than the solved one.
   const double share = sky.fogExtinction > 0 ? out.eyeFog.w / sky.fogExtinction : 1;
   out.eyeFog.w = static_cast<float>(share * (air.fog ? air.fog->extinction : 0.0));
-  out.fogFirst = sky.fogFirst;
-  out.fogSecond = sky.fogSecond;
-  out.fogSecond.w = static_cast<float>(plan.skyZeniths - interface_::SKY_BELOW);
+  out.fogTable = sky.fogTable;
+  out.skyZeniths.x = sky.groundFog;
+  out.skyZeniths.w = static_cast<float>(plan.skyZeniths - interface_::SKY_BELOW);
   out.fogBound = sky.fogBound;
 }
 
@@ -200,8 +200,8 @@ SkyTableKey skyTableKeyOf(const interface_::FrameUniforms& frame) {
   const auto& [first, second] = frame.lights;
   const std::array rows{frame.eye,         first.direction, first.irradiance, second.direction,
                         second.irradiance, frame.air,       frame.fog,        frame.fogAlbedo,
-                        frame.skyLight,    frame.skyView,   frame.eyeFog,     frame.fogFirst,
-                        frame.fogSecond,   frame.absorber};
+                        frame.skyLight,    frame.skyView,   frame.eyeFog,     frame.fogTable,
+                        frame.skyZeniths,   frame.absorber};
   SkyTableKey key;
   static_assert(sizeof key == sizeof rows);
   std::memcpy(key.data(), rows.data(), sizeof key);

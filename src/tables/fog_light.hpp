@@ -25,14 +25,12 @@ struct FogLightInput {
 class FogLight {
  public:
   // Between nodes the table is linear, divided by lobe(): that leaves 2 % about the sun.
-  static constexpr size_t SUNS = 24;
+  static constexpr size_t SUNS = 21;  // times heights: an image's depth is at most 256 everywhere
   static constexpr size_t HEIGHTS = 12;
   static constexpr size_t AZIMUTHS = 16;
   static constexpr size_t VIEWS = 32;
-  static constexpr size_t VALUES = SUNS * HEIGHTS * AZIMUTHS * VIEWS * 3;
-
-  // Some 100 ms. Air without fog: nothing.
-  explicit FogLight(const FogLightInput& input);
+  static constexpr size_t LANES = 4;  // RGB and nothing, as images have them
+  static constexpr size_t VALUES = SUNS * HEIGHTS * AZIMUTHS * VIEWS * LANES;
 
   // A direction that is looked at, from some altitude, m: by its cosine with the up, that of its
   // azimuth against the light's, and its cosine with the light. Suns below the horizon: as on it.
@@ -51,16 +49,23 @@ class FogLight {
   static double azimuthCoordinate(double cosine);
   // The light's own direction is brighter by about this much.
   double lobe(double viewSun) const;
-  // [sun][height][azimuth][view][3], over lobe().
+  // Of the fog, vertically; what lobe() is made of.
+  double depth() const { return depth_; }
+  double asymmetry() const { return asymmetry_; }
+  // Where its nodes are: cosines of the sun and of the view with the up, and the azimuth.
+  static double sunAt(size_t sun);
+  static double viewAt(size_t view);
+  static double azimuthAt(size_t azimuth);
+  // [sun][height][azimuth][view][lane], over lobe().
   const std::vector<float>& table() const { return table_; }
 
  private:
-  class Maker;
+  friend class FogLightSolver;
 
   double asymmetry_ = 0;
   double scaleHeight_ = 1;
-  double depth_ = 0;  // of the fog, vertically
-  std::vector<float> table_;
+  double depth_ = 0;
+  std::vector<float> table_;  // empty without fog
 };
 
 }  // namespace welkin

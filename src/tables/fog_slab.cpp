@@ -130,158 +130,197 @@ FogTermsOf legendreOf(size_t m, double mu) {
   return p;
 }
 
+// Equations at the edge between two cells, of which there is one more than cells. Eliminated from
+// the top: psi_l = solved(R_l) - next_l psi_{l+1}.
+struct FogSlab::Work::Edge {
+  Factors own;
+  Block next;
+  Block before;  // of the edge above, rows of streams that come down
+};
+
+FogSlab::Work::Work(size_t cells, size_t beams)
+    : edges_(cells + 1), radiance_((cells + 1) * STREAMS * beams) {}
+FogSlab::Work::~Work() = default;
+FogSlab::Work::Work(Work&&) noexcept = default;
+FogSlab::Work& FogSlab::Work::operator=(Work&&) noexcept = default;
+
 // One azimuth's equations. Unknown are the radiances at the edges of cells, 16 each; a cell's mean
 // is that of its two edges. (The diamond scheme keeps the limit of diffusion in thick cells, which
 // characteristics with a linear source do not.) At an edge stand the equations of streams that come
 // down through the cell above it and up through the cell below it.
-struct FogSlab::Mode {
-  size_t m;
-  std::array<FogTermsOf, STREAMS> legendre{};  // [stream][l - m]
-  // Eliminated from the top: psi_l = solved(R_l) - next_l psi_{l+1}.
-  std::vector<Factors> own;   // by edge
-  std::vector<Block> next;    // by edge
-  std::vector<Block> before;  // A_l: of the edge above, rows of streams that come down
+class FogSlab::Mode {
+ public:
+  Mode(size_t order, const FogSlab& slab, size_t beams, Work& work);
+  void factor();
+  void solve(const std::vector<FogBeam>& beams);
+  void addTo(FogFields& fields) const;
 
-  Mode(size_t order, const FogSlab& slab);
+ private:
+  using Edge = Work::Edge;
   // Share of a cell's extinction that scatters from P_l^m `from` into a stream; isotropic: 1.
-  double kernel(const FogSlab& slab, const FogCell& cell, size_t to, const FogTermsOf& from) const;
+  double kernel(const FogCell& cell, size_t to, const FogTermsOf& from) const;
   // Half of a cell's equation: (+-) mu / depth psi + psi / 2 - scattered / 2, times depth.
-  double coefficient(const FogSlab& slab, const FogCell& cell, size_t i, size_t j, bool out) const;
+  double coefficient(const FogCell& cell, size_t i, size_t j, bool out) const;
+  void fillEdge(size_t l);
+  void fillSources(const std::vector<FogBeam>& beams);
+  double* row(size_t l, size_t s) const {
+    return work_.radiance_.data() + (l * STREAMS + s) * beams_;
+  }
+
+  size_t m_;
+  const FogSlab& slab_;
+  size_t beams_;
+  Work& work_;
+  const Nodes& nodes_;
+  size_t last_;                                 // edge
+  std::array<FogTermsOf, STREAMS> legendre_{};  // [stream][l - m]
 };
 
-double FogSlab::Mode::kernel(const FogSlab& slab, const FogCell& cell, size_t to,
-                             const FogTermsOf& from) const {
+FogSlab::Mode::Mode(size_t order, const FogSlab& slab, size_t beams, Work& work)
+    : m_(order),
+      slab_(slab),
+      beams_(beams),
+      work_(work),
+      nodes_(nodesOf()),
+      last_(slab.cells_.size()) {
+  for (size_t s = 0; s < STREAMS; ++s) {
+    legendre_[s] = legendreOf(m_, cosineOf(s));
+  }
+}
+
+double FogSlab::Mode::kernel(const FogCell& cell, size_t to, const FogTermsOf& from) const {
   double sum = 0;
-  for (size_t l = m; l < FOG_TERMS; ++l) {
+  for (size_t l = m_; l < FOG_TERMS; ++l) {
     const double air = l == 0 ? 1 : (l == 2 ? AIR_SECOND : 0);
-    sum += static_cast<double>(2 * l + 1) * (cell.air * air + cell.fog * slab.fog_[l]) *
-           legendre[to][l - m] * from[l - m];
+    sum += static_cast<double>(2 * l + 1) * (cell.air * air + cell.fog * slab_.fog_[l]) *
+           legendre_[to][l - m_] * from[l - m_];
   }
   return sum;
 }
 
-double FogSlab::Mode::coefficient(const FogSlab& slab, const FogCell& cell, size_t i, size_t j,
-                                  bool out) const {
-  const Nodes& nodes = nodesOf();
-  double result = -0.25 * nodes.weight[j % HALF] * kernel(slab, cell, i, legendre[j]) * cell.depth;
+double FogSlab::Mode::coefficient(const FogCell& cell, size_t i, size_t j, bool out) const {
+  double result = -0.25 * nodes_.weight[j % HALF] * kernel(cell, i, legendre_[j]) * cell.depth;
   if (i == j) {
-    result += 0.5 * cell.depth + (out ? 1 : -1) * nodes.mu[i % HALF];
+    result += 0.5 * cell.depth + (out ? 1 : -1) * nodes_.mu[i % HALF];
   }
   return result;
 }
 
-FogSlab::Mode::Mode(size_t order, const FogSlab& slab) : m(order) {
-  for (size_t s = 0; s < STREAMS; ++s) {
-    legendre[s] = legendreOf(m, cosineOf(s));
-  }
-  const Nodes& nodes = nodesOf();
-  const size_t last = slab.cells_.size();
-  own.resize(last + 1);
-  next.resize(last + 1);
-  before.resize(last + 1);
-  for (size_t l = 0; l <= last; ++l) {
-    Block& a = before[l];
-    Block& b = own[l].lu;
-    Block& c = next[l];
-    for (size_t i = 0; i < STREAMS; ++i) {
-      const bool down = i < HALF;
-      for (size_t j = 0; j < STREAMS; ++j) {
-        const size_t at = i * STREAMS + j;
-        if (down && l > 0) {
-          a[at] = coefficient(slab, slab.cells_[l - 1], i, j, false);
-          b[at] = coefficient(slab, slab.cells_[l - 1], i, j, true);
-        } else if (!down && l < last) {
-          b[at] = coefficient(slab, slab.cells_[l], i, j, true);
-          c[at] = coefficient(slab, slab.cells_[l], i, j, false);
-        } else {
-          b[at] = i == j ? 1 : 0;
-          if (!down && m == 0 && j < HALF) {  // the ground
-            b[at] -= 2 * slab.groundAlbedo_ * nodes.weight[j] * nodes.mu[j];
-          }
+void FogSlab::Mode::fillEdge(size_t l) {
+  Edge& edge = work_.edges_[l];
+  edge.own.lu.fill(0);
+  edge.next.fill(0);
+  edge.before.fill(0);
+  for (size_t i = 0; i < STREAMS; ++i) {
+    const bool down = i < HALF;
+    for (size_t j = 0; j < STREAMS; ++j) {
+      const size_t at = i * STREAMS + j;
+      if (down && l > 0) {
+        edge.before[at] = coefficient(slab_.cells_[l - 1], i, j, false);
+        edge.own.lu[at] = coefficient(slab_.cells_[l - 1], i, j, true);
+      } else if (!down && l < last_) {
+        edge.own.lu[at] = coefficient(slab_.cells_[l], i, j, true);
+        edge.next[at] = coefficient(slab_.cells_[l], i, j, false);
+      } else {
+        edge.own.lu[at] = i == j ? 1 : 0;
+        if (!down && m_ == 0 && j < HALF) {  // the ground
+          edge.own.lu[at] -= 2 * slab_.groundAlbedo_ * nodes_.weight[j] * nodes_.mu[j];
         }
       }
     }
+  }
+}
+
+void FogSlab::Mode::factor() {
+  for (size_t l = 0; l <= last_; ++l) {
+    fillEdge(l);
+    Edge& edge = work_.edges_[l];
     if (l > 0) {
-      // next[l - 1] is by now the solved one.
       for (size_t i = 0; i < HALF; ++i) {
         for (size_t k = 0; k < STREAMS; ++k) {
-          Factors::subtract(b.data() + i * STREAMS, next[l - 1].data() + k * STREAMS,
-                            a[i * STREAMS + k], STREAMS);
+          Factors::subtract(edge.own.lu.data() + i * STREAMS,
+                            work_.edges_[l - 1].next.data() + k * STREAMS,
+                            edge.before[i * STREAMS + k], STREAMS);
         }
       }
     }
-    own[l].factor();
-    own[l].solve(c.data(), STREAMS);
+    edge.own.factor();
+    edge.own.solve(edge.next.data(), STREAMS);
   }
 }
 
-FogSlab::FogSlab(const std::vector<FogCell>& cells, const FogTermsOf& fog, double groundAlbedo)
-    : cells_(cells), fog_(fog), groundAlbedo_(groundAlbedo) {
-  for (size_t m = 0; m < FOG_TERMS; ++m) {
-    modes_.emplace_back(m, *this);
-  }
-}
-
-FogSlab::~FogSlab() = default;
-FogSlab::FogSlab(FogSlab&&) noexcept = default;
-
-std::vector<std::vector<FogField>> FogSlab::solve(const std::vector<FogBeam>& beams) const {
-  const Nodes& nodes = nodesOf();
-  const size_t columns = beams.size();
-  const size_t last = cells_.size();
-  std::vector<std::vector<FogField>> fields(columns, std::vector<FogField>(last));
-  std::vector<double> psi((last + 1) * STREAMS * columns);
-  for (const Mode& mode : modes_) {
-    const size_t m = mode.m;
-    std::fill(psi.begin(), psi.end(), 0.0);
-    const auto rowOf = [&](size_t l, size_t s) { return psi.data() + (l * STREAMS + s) * columns; };
-    for (size_t n = 0; n < columns; ++n) {
-      const FogBeam& beam = beams[n];
-      const auto p = legendreOf(m, -beam.sunMu);
-      for (size_t k = 0; k < last; ++k) {
-        const FogCell& cell = cells_[k];
-        for (size_t s = 0; s < STREAMS; ++s) {
-          rowOf(s < HALF ? k + 1 : k, s)[n] =
-              mode.kernel(*this, cell, s, p) * beam.irradiance[k] / (4 * PI) * cell.depth;
-        }
-      }
-      if (m == 0) {
-        for (size_t s = HALF; s < STREAMS; ++s) {
-          rowOf(last, s)[n] = groundAlbedo_ * beam.sunMu * beam.atGround / PI;
-        }
-      }
-    }
-    for (size_t l = 0; l <= last; ++l) {
-      if (l > 0) {
-        for (size_t i = 0; i < HALF; ++i) {
-          for (size_t k = 0; k < STREAMS; ++k) {
-            Factors::subtract(rowOf(l, i), rowOf(l - 1, k), mode.before[l][i * STREAMS + k],
-                              columns);
-          }
-        }
-      }
-      mode.own[l].solve(rowOf(l, 0), columns);
-    }
-    for (size_t l = last; l-- > 0;) {
-      for (size_t i = 0; i < STREAMS; ++i) {
-        for (size_t k = 0; k < STREAMS; ++k) {
-          Factors::subtract(rowOf(l, i), rowOf(l + 1, k), mode.next[l][i * STREAMS + k], columns);
-        }
-      }
-    }
-    for (size_t k = 0; k < last; ++k) {
+void FogSlab::Mode::fillSources(const std::vector<FogBeam>& beams) {
+  std::fill(work_.radiance_.begin(), work_.radiance_.end(), 0.0);
+  for (size_t n = 0; n < beams_; ++n) {
+    const FogBeam& beam = beams[n];
+    const auto p = legendreOf(m_, -beam.sunMu);
+    for (size_t k = 0; k < last_; ++k) {
+      const FogCell& cell = slab_.cells_[k];
       for (size_t s = 0; s < STREAMS; ++s) {
-        const double* upper = rowOf(k, s);
-        const double* lower = rowOf(k + 1, s);
-        const double weight = 0.25 * nodes.weight[s % HALF];
-        for (size_t l = m; l < FOG_TERMS; ++l) {
-          const double factor = weight * mode.legendre[s][l - m];
-          for (size_t n = 0; n < columns; ++n) {
-            fields[n][k].at(l, m) += factor * (upper[n] + lower[n]);
-          }
+        row(s < HALF ? k + 1 : k, s)[n] =
+            kernel(cell, s, p) * beam.irradiance[k] / (4 * PI) * cell.depth;
+      }
+    }
+    for (size_t s = HALF; s < STREAMS && m_ == 0; ++s) {
+      row(last_, s)[n] = slab_.groundAlbedo_ * beam.sunMu * beam.atGround / PI;
+    }
+  }
+}
+
+void FogSlab::Mode::solve(const std::vector<FogBeam>& beams) {
+  fillSources(beams);
+  for (size_t l = 0; l <= last_; ++l) {
+    const Edge& edge = work_.edges_[l];
+    if (l > 0) {
+      for (size_t i = 0; i < HALF; ++i) {
+        for (size_t k = 0; k < STREAMS; ++k) {
+          Factors::subtract(row(l, i), row(l - 1, k), edge.before[i * STREAMS + k], beams_);
         }
       }
     }
+    edge.own.solve(row(l, 0), beams_);
+  }
+  for (size_t l = last_; l-- > 0;) {
+    for (size_t i = 0; i < STREAMS; ++i) {
+      for (size_t k = 0; k < STREAMS; ++k) {
+        Factors::subtract(row(l, i), row(l + 1, k), work_.edges_[l].next[i * STREAMS + k], beams_);
+      }
+    }
+  }
+}
+
+void FogSlab::Mode::addTo(FogFields& fields) const {
+  for (size_t k = 0; k < last_; ++k) {
+    for (size_t s = 0; s < STREAMS; ++s) {
+      const double* upper = row(k, s);
+      const double* lower = row(k + 1, s);
+      const double weight = 0.25 * nodes_.weight[s % HALF];
+      for (size_t n = 0; n < beams_; ++n) {
+        const double mean = weight * (upper[n] + lower[n]);
+        for (size_t l = m_; l < FOG_TERMS; ++l) {
+          fields[n][k].at(l, m_) += legendre_[s][l - m_] * mean;
+        }
+      }
+    }
+  }
+}
+
+FogSlab::FogSlab(std::vector<FogCell> cells, const FogTermsOf& fog, double groundAlbedo)
+    : cells_(std::move(cells)), fog_(fog), groundAlbedo_(groundAlbedo) {}
+
+void FogSlab::addMode(size_t m, const std::vector<FogBeam>& beams, Work& work,
+                      FogFields& fields) const {
+  Mode mode(m, *this, beams.size(), work);
+  mode.factor();
+  mode.solve(beams);
+  mode.addTo(fields);
+}
+
+FogFields FogSlab::solve(const std::vector<FogBeam>& beams) const {
+  FogFields fields(beams.size(), std::vector<FogField>(cells_.size()));
+  Work work(cells_.size(), beams.size());
+  for (size_t m = 0; m < FOG_TERMS; ++m) {
+    addMode(m, beams, work, fields);
   }
   return fields;
 }

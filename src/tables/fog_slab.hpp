@@ -44,22 +44,40 @@ class FogField {
   std::array<double, FOG_TERMS * FOG_TERMS> terms_{};
 };
 
+// [beam][cell]
+using FogFields = std::vector<std::vector<FogField>>;
+
 class FogSlab {
  public:
-  // Cells from the top down; `fog`: its Legendre moments 0 to 15 without the peak.
-  FogSlab(const std::vector<FogCell>& cells, const FogTermsOf& fog, double groundAlbedo);
-  ~FogSlab();
-  FogSlab(FogSlab&&) noexcept;
+  // Memory that azimuths are solved in, one after the other; for so many cells and beams.
+  class Work {
+   public:
+    Work(size_t cells, size_t beams);
+    ~Work();
+    Work(Work&&) noexcept;
+    Work& operator=(Work&&) noexcept;
 
-  // Field of each cell for each beam: [beam][cell].
-  std::vector<std::vector<FogField>> solve(const std::vector<FogBeam>& beams) const;
+   private:
+    friend class FogSlab;
+    struct Edge;
+    std::vector<Edge> edges_;
+    std::vector<double> radiance_;  // [edge][stream][beam]
+  };
+
+  // Cells from the top down; `fog`: its Legendre moments 0 to 15 without the peak.
+  FogSlab(std::vector<FogCell> cells, const FogTermsOf& fog, double groundAlbedo);
+
+  // Adds the part of azimuth m, 0 to 15, to the fields, which are 0 before the first. Allocates
+  // nothing.
+  void addMode(size_t m, const std::vector<FogBeam>& beams, Work& work, FogFields& fields) const;
+  // All of them.
+  FogFields solve(const std::vector<FogBeam>& beams) const;
 
  private:
-  struct Mode;
+  class Mode;
   std::vector<FogCell> cells_;
   FogTermsOf fog_;
   double groundAlbedo_;
-  std::vector<Mode> modes_;
 };
 
 // Normalised associated Legendre functions of a cosine, [l - m] for l = m to 15: mean square over

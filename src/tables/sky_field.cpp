@@ -70,11 +70,28 @@ SkyColor SkyField::irradianceAt(double sunMu) const {
           std::max(static_cast<double>(lanes[2]), 0.0)};
 }
 
-SkyField::Parts SkyField::momentsAlong(double altitude, double viewMu, double sunMu, double viewSun,
-                                       double distance, int steps) const {
+// In twilight fog darkens as the ground does.
+SkyColor SkyField::fogSourceAt(double altitude, const SkyPlace& place, double viewSun) const {
+  const auto sunMu = static_cast<double>(place.sunMu);
+  const auto viewMu = static_cast<double>(place.view.y);
+  const double flat = std::sqrt(std::max((1 - viewMu) * (1 + viewMu), 0.0));
+  const double azimuth =
+      std::clamp(static_cast<double>(place.view.x) / std::max(flat, 1e-6), -1.0, 1.0);
+  SkyColor source = fogLight_->sourceAt(altitude, sunMu, {viewMu, azimuth, viewSun});
+  if (sunMu < 0) {
+    const SkyColor now = irradianceAt(sunMu);
+    const SkyColor before = irradianceAt(0);
+    for (size_t c = 0; c < 3; ++c) {
+      source[c] *= std::min(now[c] / std::max(before[c], 1e-300), 1.0);
+    }
+  }
+  return source;
+}
+
+SkyField::Parts SkyField::gatheredAlong(double altitude, double viewMu, double sunMu,
+                                        double viewSun, double distance, int steps) const {
   const SkyAxes axes(air_);
   const SkyRay plan = planRay(eye_, axes, altitude, viewMu, distance, steps);
-  const FogTerms terms = fogTerms(eyeMoments_);
   const double r = air_.planetRadius + altitude;
   const SkyAim aim{static_cast<float>(r), static_cast<float>(viewMu), static_cast<float>(sunMu),
                    static_cast<float>(viewSun)};
@@ -85,13 +102,12 @@ SkyField::Parts SkyField::momentsAlong(double altitude, double viewMu, double su
     float row[4 * VALUES];
     blendAltitudes(moments_, step.high, sun.first * VALUES, 4 * VALUES, row);
     const SkyLight g = gatherMoments(row, place.view, {0, sun.weights});
+    const SkyColor fog = fogLight_ ? fogSourceAt(step.altitude, place, viewSun) : SkyColor{};
     for (size_t c = 0; c < 3; ++c) {
-      const float source =
-          g.mean[c] + terms.first[c] * g.along[c] + terms.second[c] * (3 * g.square[c] - g.mean[c]);
       // Cubics may run below zero in the dark.
       const float even = std::max(g.mean[c] + g.square[c], 0.0F);
-      result.air[c] += static_cast<double>(step.air[c] * RAYLEIGH * even +
-                                           step.fog[c] * ISOTROPIC * std::max(source, 0.0F));
+      result.air[c] += static_cast<double>(step.air[c] * RAYLEIGH * even) +
+                       static_cast<double>(step.fog[c]) * fog[c];
     }
   }
   if (plan.ground >= 0) {
@@ -107,7 +123,7 @@ SkyField::Parts SkyField::momentsAlong(double altitude, double viewMu, double su
 
 SkyColor SkyField::radianceAlong(double altitude, double viewMu, double sunMu, double viewSun,
                                  double distance, int steps) const {
-  return sumOf(momentsAlong(altitude, viewMu, sunMu, viewSun, distance, steps));
+  return sumOf(gatheredAlong(altitude, viewMu, sunMu, viewSun, distance, steps));
 }
 
 SkyField::Once SkyField::onceAlong(const AirInput& input, double altitude, double viewMu,
@@ -139,19 +155,18 @@ SkyField::Lit SkyField::groundAt(double sunMu) const {
   return ground;
 }
 
-// Besides the moments: the first order with the peak's light counted as unscattered, less the first
+// Besides what is gathered: the first order with the peak's light counted as unscattered, less the first
 // order itself; and what comes through the peak from beyond the ray's end. Of that, the ground's
 // own light is what also misses the peak.
 SkyField::Parts SkyField::higherOrders(double altitude, double viewMu, double sunMu, double viewSun,
                                        double distance, const SkyColor& fogPhase) const {
-  Parts result = momentsAlong(altitude, viewMu, sunMu, viewSun, distance, EYE_STEPS);
+  Parts result = gatheredAlong(altitude, viewMu, sunMu, viewSun, distance, EYE_STEPS);
   if (!(peak_ > 0) || !(air_.fogExtinction > 0)) {
     return result;
   }
   SkyColor phase{};
   for (size_t c = 0; c < 3; ++c) {
-    const double top = (1 + 3 * fogMoments_[0][c] + 5 * fogMoments_[1][c]) / (4 * PI);
-    phase[c] = std::min(fogPhase[c] / (1 - eyePeak_), fogBound_[c] > 0 ? fogBound_[c] : top);
+    phase[c] = std::min(fogPhase[c] / (1 - eyePeak_), fogBound_[c]);
   }
   const double radius = air_.planetRadius;
   const double r = radius + altitude;

@@ -2,7 +2,8 @@
 // Light in air and fog over a round planet that has been scattered or reflected at least once: its
 // directional moments by altitude and sun, per unit irradiance of the light. They are all that a
 // phase function of two Legendre terms needs for the source of every further scattering, so one
-// small table serves every camera and every sun. Successive orders; no Vulkan.
+// small table serves every camera and every sun. Successive orders; no Vulkan. Along a ray that is
+// looked at, fog scatters with sixteen terms: FogLight.
 //
 // Frame of the moments at a point: y up, x horizontal towards the light's azimuth. Directions point
 // to where light comes from.
@@ -10,9 +11,11 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "model/evaluate.hpp"
+#include "tables/fog_light.hpp"
 
 namespace welkin {
 
@@ -20,9 +23,10 @@ using SkyColor = std::array<double, 3>;
 
 struct SkyFieldInput {
   AirInput air;
-  // Legendre moments 1 to 3 of the fog's phase function. The third is taken for its forward peak,
-  // which counts as unscattered (delta-M, Wiscombe 1977): what is left has no more than two terms.
-  std::array<SkyColor, 3> fogMoments{};
+  // Legendre moments 1 to 16 of the fog's phase function. For the moments of light the third is
+  // taken for its forward peak, which counts as unscattered (delta-M, Wiscombe 1977), so that two
+  // terms are left; along a ray that is looked at the sixteenth.
+  std::array<SkyColor, FOG_TERMS> fogMoments{};
   SkyColor groundAlbedo{};
   double lightAngularRadius = 0.00466;
 
@@ -37,6 +41,8 @@ struct SkyFieldSteps {
   int steps = 20;       // along a ray
   int maxOrders = 64;
 };
+
+struct SkyPlace;
 
 class SkyField {
  public:
@@ -54,12 +60,12 @@ class SkyField {
   // Diffuse light on horizontal ground at sea level.
   SkyColor irradianceAt(double sunMu) const;
   int orders() const { return orders_; }
-  // What GPU passes gather by: the air as the eye sees it and its fog's moments, the share of the
-  // fog's peak that it does not see, and the tables themselves: [altitude][sun][moment][4 colours]
-  // and [sun][4 colours].
+  // What GPU passes gather by: the air as the eye sees it, the share of the fog's peak that it does
+  // not see, what fog scatters (null without fog), and the tables themselves:
+  // [altitude][sun][moment][4 colours] and [sun][4 colours].
   const AirInput& eyeAir() const { return eye_; }
-  const std::array<SkyColor, 2>& eyeMoments() const { return eyeMoments_; }
   double eyePeak() const { return eyePeak_; }
+  const FogLight* fogLight() const { return fogLight_.get(); }
   // Largest value of the fog's phase function without the eye's part of its peak, RGB, 1/sr.
   const SkyColor& fogBound() const { return fogBound_; }
   void boundFogPhase(const SkyColor& bound) { fogBound_ = bound; }
@@ -85,16 +91,17 @@ class SkyField {
   // Both parts.
   SkyColor higherOrdersAlong(double altitude, double viewMu, double sunMu, double viewSun,
                              double distance, const SkyColor& fogPhase) const;
-  // The same from the moments alone: without light that the fog turned only within its peak but
-  // once, neither on its way to the ray nor on the ray.
+  // The same without light that the fog turned only within its peak but once, neither on its way to
+  // the ray nor on the ray.
   SkyColor radianceAlong(double altitude, double viewMu, double sunMu, double viewSun,
                          double distance, int steps = EYE_STEPS) const;
 
  private:
   friend class SkyFieldSolver;
 
-  Parts momentsAlong(double altitude, double viewMu, double sunMu, double viewSun, double distance,
-                     int steps) const;
+  Parts gatheredAlong(double altitude, double viewMu, double sunMu, double viewSun,
+                      double distance, int steps) const;
+  SkyColor fogSourceAt(double altitude, const SkyPlace& place, double viewSun) const;
   // First order along a ray that ends at `distance`.
   struct Once {
     SkyColor radiance;
@@ -111,15 +118,14 @@ class SkyField {
   Lit groundAt(double sunMu) const;
 
   AirInput air_;  // without the peak
-  // Along a ray that is looked at, only a part of the peak counts as unscattered: eyeShare().
-  AirInput eye_;
+  AirInput eye_;  // without the part of the peak that counts as unscattered where it is looked at
   AirInput attenuated_;  // scatters like eye_, attenuates by all of the fog
   double lightAngularRadius_ = 0;
   double peak_ = 0;
   double eyePeak_ = 0;
   SkyColor fogBound_{};
   std::array<SkyColor, 2> fogMoments_{};  // without the peak
-  std::array<SkyColor, 2> eyeMoments_{};
+  std::shared_ptr<const FogLight> fogLight_;
   SkyColor groundAlbedo_{};
   int orders_ = 0;
   std::vector<float> moments_;     // [altitude][sun][moment][channel]

@@ -6,6 +6,7 @@
 
 #include "model/air_input.hpp"
 #include "model/model.hpp"
+#include "tables/fog_light_solver.hpp"
 #include "tables/sky_fan.hpp"
 #include "tables/sky_light.hpp"
 #include "tables/sky_zenith.hpp"
@@ -273,31 +274,45 @@ double energy(const std::vector<float>& moments) {
   return sum;
 }
 
-// Of the fog's forward peak, as much as counts as unscattered along a ray that is looked at. The
-// third moment belongs to a lobe tens of degrees wide, and thin haze is a band of a degree or two
-// at the horizon: light that is turned by more than that leaves it. By the vertical optical depth.
-// Chosen among 0 to 1 on random rays in Henyey-Greenstein 0.76 and 0.87, depths 0.012 to 0.5.
-double eyeShare(const AirInput& air) {
-  const double base = std::min(air.fogBaseAltitude / air.fogScaleHeight, 30.0);
-  const double depth = air.fogExtinction * air.fogScaleHeight * std::exp(base);
-  return std::min(1.0, std::pow(depth, 0.3));
+// Mean of the colours, which differ by a few per cent: the extinction is grey. `l`: from 1 on.
+double meanMoment(const SkyFieldInput& input, size_t l) {
+  double sum = 0;
+  for (const double one : input.fogMoments[l - 1]) {
+    sum += std::clamp(one, 0.0, 0.99) / 3;
+  }
+  return sum;
 }
 
 // What is left of fog without the part `peak` of its scattering.
-void takeOff(double peak, const SkyFieldInput& input, AirInput& air,
-             std::array<SkyColor, 2>& moments) {
+AirInput withoutPeak(double peak, const SkyFieldInput& input) {
   double albedo = 0;
   for (const double one : input.air.fogAlbedo) {
     albedo += one / 3;
   }
-  air = input.air;
+  AirInput air = input.air;
   air.fogExtinction *= 1 - albedo * peak;
   for (size_t c = 0; c < 3; ++c) {
     air.fogAlbedo[c] = std::min(input.air.fogAlbedo[c] * (1 - peak) / (1 - albedo * peak), 1.0);
-    for (size_t l = 0; l < 2; ++l) {
-      moments[l][c] = (input.fogMoments[l][c] - peak) / (1 - peak);
+  }
+  return air;
+}
+
+double momentWithout(double peak, double moment) {
+  return (moment - peak) / (1 - peak);
+}
+
+FogLightInput fogLightInputOf(const SkyFieldInput& input, const AirInput& eye, double peak) {
+  FogLightInput fog;
+  fog.air = eye;
+  fog.groundAlbedo = input.groundAlbedo;
+  fog.lightAngularRadius = input.lightAngularRadius;
+  for (size_t c = 0; c < 3; ++c) {
+    fog.terms[c][0] = 1;
+    for (size_t l = 1; l < FOG_TERMS; ++l) {
+      fog.terms[c][l] = momentWithout(peak, input.fogMoments[l - 1][c]);
     }
   }
+  return fog;
 }
 
 }  // namespace
@@ -307,10 +322,12 @@ struct SkyFieldSolver::State {
   int maxOrders;
   SkyField field;
   Gatherer gatherer;
+  FogLightSolver fog;
   std::array<Order, 2> orders;  // the one in work and its predecessor
   double last = 0;              // energy of the predecessor
   size_t rows = 0;
-  bool done = false;
+  bool enough = false;  // orders
+  [[nodiscard]] bool done() const { return enough && fog.done(); }
 
   Order& order(int number) { return orders[static_cast<size_t>(number % 2)]; }
 };
@@ -319,13 +336,22 @@ SkyFieldSolver::SkyFieldSolver(const SkyFieldInput& input, const SkyFieldSteps& 
   SkyField field;
   field.groundAlbedo_ = input.groundAlbedo;
   field.lightAngularRadius_ = input.lightAngularRadius;
-  // One peak for all colours: they differ by a few per cent, the extinction is grey.
-  for (const double third : input.fogMoments[2]) {
-    field.peak_ += std::clamp(third, 0.0, 0.99) / 3;
+  field.peak_ = meanMoment(input, 3);
+  // Of droplets that scatter backwards the odd moments are negative: they have no peak.
+  field.eyePeak_ = std::min(meanMoment(input, FOG_TERMS), meanMoment(input, FOG_TERMS - 1));
+  field.air_ = withoutPeak(field.peak_, input);
+  field.eye_ = withoutPeak(field.eyePeak_, input);
+  FogLightSolver fog(fogLightInputOf(input, field.eye_, field.eyePeak_));
+  for (size_t c = 0; c < 3; ++c) {
+    double top = 1;
+    for (size_t l = 1; l < FOG_TERMS; ++l) {
+      top += static_cast<double>(2 * l + 1) * momentWithout(field.eyePeak_, input.fogMoments[l - 1][c]);
+    }
+    field.fogBound_[c] = std::max(top, 1.0) / (4 * PI);
+    for (size_t l = 0; l < 2; ++l) {
+      field.fogMoments_[l][c] = momentWithout(field.peak_, input.fogMoments[l][c]);
+    }
   }
-  field.eyePeak_ = eyeShare(input.air) * field.peak_;
-  takeOff(field.peak_, input, field.air_, field.fogMoments_);
-  takeOff(field.eyePeak_, input, field.eye_, field.eyeMoments_);
   field.attenuated_ = input.air;
   for (double& albedo : field.attenuated_.fogAlbedo) {
     albedo *= 1 - field.eyePeak_;
@@ -334,7 +360,7 @@ SkyFieldSolver::SkyFieldSolver(const SkyFieldInput& input, const SkyFieldSteps& 
   field.irradiance_.resize(SUNS * LANES);
   Gatherer gatherer(input, field.air_, field.fogMoments_, steps);
   state_ = std::make_unique<State>(
-      State{input, steps.maxOrders, std::move(field), std::move(gatherer), {}});
+      State{input, steps.maxOrders, std::move(field), std::move(gatherer), std::move(fog), {}});
 }
 
 SkyFieldSolver::SkyFieldSolver(SkyFieldSolver&&) noexcept = default;
@@ -343,7 +369,12 @@ SkyFieldSolver::~SkyFieldSolver() = default;
 
 bool SkyFieldSolver::advance(size_t rows) {
   State& state = *state_;
-  for (; rows > 0 && !state.done; --rows) {
+  for (; rows > 0 && !state.done(); --rows) {
+    if (state.enough) {
+      state.fog.advance();
+      ++state.rows;
+      continue;
+    }
     const int number = state.field.orders_;
     const Order* previous = number > 0 ? &state.order(number - 1) : nullptr;
     state.gatherer.gather(previous, state.rows % ALTITUDES, state.order(number));
@@ -352,7 +383,7 @@ bool SkyFieldSolver::advance(size_t rows) {
       finishOrder();
     }
   }
-  return state.done;
+  return state.done();
 }
 
 void SkyFieldSolver::finishOrder() {
@@ -371,11 +402,11 @@ void SkyFieldSolver::finishOrder() {
   add(field.moments_, order.moments, static_cast<float>(scale));
   add(field.irradiance_, order.irradiance, static_cast<float>(scale));
   state.last = now;
-  state.done = ends || !(now > 0);
+  state.enough = ends || !(now > 0);
 }
 
 bool SkyFieldSolver::done() const {
-  return state_->done;
+  return state_->done();
 }
 
 size_t SkyFieldSolver::rows() const {
@@ -387,7 +418,11 @@ const SkyFieldInput& SkyFieldSolver::input() const {
 }
 
 SkyField SkyFieldSolver::take() {
-  return std::move(state_->field);
+  SkyField field = std::move(state_->field);
+  if (field.eye_.fogExtinction > 0) {
+    field.fogLight_ = std::make_shared<const FogLight>(state_->fog.take());
+  }
+  return field;
 }
 
 SkyField solveSkyField(const SkyFieldInput& input, const SkyFieldSteps& steps) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Solves a SkyField a few rows at a time, so that an engine whose atmosphere changes can spread the
 // work over frames. A row is one altitude of one order of scattering, for all suns and directions;
-// rows of the first order take some 2.7 times as long as the others, the constructor as one.
+// rows of the first order take some 2.7 times as long as the others, the constructor as one. With
+// fog, FogLightSolver::STEPS more rows follow, which take about as long.
 #pragma once
 
 #include <memory>

@@ -81,7 +81,7 @@ welkin::SkyFieldInput inputFor(const Atmosphere& atmosphere) {
     input.air.fogExtinction = HAZE_EXTINCTION;
     input.air.fogScaleHeight = HAZE_HEIGHT;
     std::fill(std::begin(input.air.fogAlbedo), std::end(input.air.fogAlbedo), HAZE_ALBEDO);
-    for (size_t l = 0; l < 3; ++l) {
+    for (size_t l = 0; l < welkin::FOG_TERMS; ++l) {
       input.fogMoments[l].fill(std::pow(G, l + 1));
     }
   }

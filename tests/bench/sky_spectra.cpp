@@ -103,7 +103,7 @@ welkin::SkyFieldInput inputFor(const Atmosphere& atmosphere, const Wavelengths& 
   input.lightAngularRadius = SUN_RADIUS;
   input.air.fogExtinction = atmosphere.hazeExtinction;
   input.air.fogScaleHeight = atmosphere.hazeHeight;
-  for (size_t l = 0; l < 3 && atmosphere.hazeExtinction > 0; ++l) {
+  for (size_t l = 0; l < welkin::FOG_TERMS && atmosphere.hazeExtinction > 0; ++l) {
     input.fogMoments[l].fill(std::pow(HAZE_G, l + 1));
   }
   return input;

@@ -270,7 +270,8 @@ TEST_F(SkyLightPicture, OfTwoLightsFollowsTheQuery) {
         const double p95 = both[static_cast<size_t>(0.95 * static_cast<double>(both.size() - 1))];
         std::printf("%.0f m, fog %d, height %.2f: p95 %.3f %%, worst %.3f %%\n", altitude,
                     fog ? 1 : 0, static_cast<double>(height), 100 * p95, 100 * both.back());
-        EXPECT_LE(p95, 0.005);
+        // Fog's own table is coarser than twilight.
+        EXPECT_LE(p95, fog && height < 0 ? 0.02 : 0.005);
         EXPECT_LE(both.back(), 0.1);
       }
     }
@@ -408,13 +409,14 @@ TEST_F(SkyLightPicture, OfSurfacesInTwilightFollowsTheQuery) {
 TEST_F(SkyLightPicture, OfFogFollowsTheQuery) {
   scene.setSky();
   setBlackGround();
-  // In thick fog the query's own 48 steps are long.
+  // In thick fog the query's own 48 steps are long; what fog scatters of light around it lies in a
+  // table of 16 azimuths.
   struct Layer {
     float extinction;
     double p95;
     double worst;
   };
-  for (const Layer& layer : {Layer{2e-5f, 0.002, 0.005}, {1e-3f, 0.01, 0.05}, {2e-2f, 0.1, 0.5}}) {
+  for (const Layer& layer : {Layer{2e-5f, 0.002, 0.005}, {1e-3f, 0.02, 0.06}, {2e-2f, 0.1, 0.5}}) {
     scene.setFog(layer.extinction, 300);
     std::printf("fog of %g per m\n", static_cast<double>(layer.extinction));
     for (const Station& from : {Station{2, 20}, {250, 0}, {3000, -15}}) {

@@ -65,6 +65,10 @@ WlkVulkanViewTargets EngineScene::targets(const WlkVulkanImage& color) const {
 }
 
 FrameCounts EngineScene::renderFrame() {
+  return renderFrames({&view, 1});
+}
+
+FrameCounts EngineScene::renderFrames(std::span<const WlkView> views) {
   auto info = make<WlkFrameInfo>();
   info.completedFrameIndex = frame_;
   info.frameIndex = ++frame_;
@@ -83,7 +87,10 @@ FrameCounts EngineScene::renderFrame() {
     }
     counts.update = SpyDevice::counts();
     SpyDevice::counts() = {};
-    result = wlkVulkanCmdRenderView(context, commands, view, &images);
+    for (const WlkView one : views) {
+      const WlkResult last = wlkVulkanCmdRenderView(context, commands, one, &images);
+      result = result == WLK_SUCCESS ? last : result;
+    }
     counts.view = SpyDevice::counts();
   });
   check(result);

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "support/headless_scene.hpp"
 #include "support/spy_device.hpp"
@@ -50,6 +51,8 @@ class EngineScene : private SpiedEngine, public SceneBuilder {
   WlkVulkanViewTargets targets(const WlkVulkanImage& color) const;
   // wlkBeginFrame, update and view in one command buffer, submitted and waited for.
   FrameCounts renderFrame();
+  // The same of several views, one after the other on the same target.
+  FrameCounts renderFrames(std::span<const WlkView> views);
   Image read() const;
 
  private:

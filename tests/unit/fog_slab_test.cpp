@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ostream>
+#include <sstream>
 #include <string>
 
 #include "reference/slab_solver.hpp"
@@ -149,9 +150,10 @@ TEST_P(FogSlabTruth, LeavesAsMuchLightAsTheReference) {
 }
 
 std::string fogName(const testing::TestParamInfo<Fog>& info) {
-  const auto percent = [](double x) { return std::to_string(std::lround(100 * x)); };
-  return "g" + percent(info.param.g) + "Depth" + percent(info.param.depth) + "Ground" +
-         percent(info.param.ground);
+  std::ostringstream name;
+  name << "g" << std::lround(100 * info.param.g) << "Depth" << std::lround(100 * info.param.depth)
+       << "Ground" << std::lround(100 * info.param.ground);
+  return name.str();
 }
 
 INSTANTIATE_TEST_SUITE_P(Fogs, FogSlabTruth,

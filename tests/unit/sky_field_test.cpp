@@ -13,6 +13,7 @@
 #include "model/air_input.hpp"
 #include "model/evaluate.hpp"
 #include "reference/monte_carlo.hpp"
+#include "tables/fog_light_solver.hpp"
 #include "tables/sky_field_solver.hpp"
 #include "tables/sky_light.hpp"
 
@@ -47,7 +48,7 @@ SkyFieldInput inputOf(const Haze& haze, double groundAlbedo) {
   std::copy(rayleigh.begin(), rayleigh.end(), input.air.airScattering);
   input.air.fogExtinction = haze.extinction;
   input.air.fogScaleHeight = haze.scaleHeight;
-  for (size_t l = 0; l < 3; ++l) {
+  for (size_t l = 0; l < welkin::FOG_TERMS; ++l) {
     input.fogMoments[l].fill(std::pow(haze.g, l + 1));
   }
   input.groundAlbedo.fill(groundAlbedo);
@@ -212,7 +213,8 @@ TEST(SkyField, IsFiniteAndNeverNegative) {
 TEST(SkyFieldSolver, GivesTheSameFieldInPortionsOfAnySize) {
   const SkyFieldInput input = inputOf(EARTH, 0.2);
   const SkyField whole = solveSkyField(input, coarseSteps());
-  const size_t rows = SkyField::ALTITUDES * static_cast<size_t>(whole.orders());
+  const size_t rows = SkyField::ALTITUDES * static_cast<size_t>(whole.orders()) +
+                      welkin::FogLightSolver::STEPS;
   for (const size_t portion : {size_t{1}, size_t{7}, rows}) {
     SkyFieldSolver solver(input, coarseSteps());
     EXPECT_FALSE(solver.advance(0));
@@ -228,6 +230,7 @@ TEST(SkyFieldSolver, GivesTheSameFieldInPortionsOfAnySize) {
     EXPECT_EQ(field.orders(), whole.orders());
     EXPECT_EQ(field.moments(), whole.moments());
     EXPECT_EQ(field.irradiance(), whole.irradiance());
+    EXPECT_EQ(field.fogLight()->table(), whole.fogLight()->table());
   }
   RecordProperty("rows", static_cast<int>(rows));
 }

@@ -82,7 +82,7 @@ TEST(QuerySky, GroundSeenThroughHazeIsLeftOut) {
   std::copy(rayleigh.begin(), rayleigh.end(), input.air.airScattering);
   input.air.fogExtinction = 1e-4;
   input.air.fogScaleHeight = 1200;
-  for (size_t l = 0; l < 3; ++l) {
+  for (size_t l = 0; l < welkin::FOG_TERMS; ++l) {
     input.fogMoments[l].fill(std::pow(G, l + 1));
   }
   input.groundAlbedo.fill(0.6);
