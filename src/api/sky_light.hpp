@@ -12,7 +12,7 @@ void prepareSkyLight(WlkContext_T& context);
 
 // The same a few rows at a time, some 4 ms of CPU time per call, while frames show the light of the
 // air before; the first air is solved at once. An air that changes again waits until the work at
-// hand is done: 24 calls in clear air, 28 to 110 with fog.
+// hand is done: 24 calls in clear air, 42 to 124 with fog.
 void advanceSkyLight(WlkContext_T& context);
 
 }  // namespace welkin

@@ -367,7 +367,7 @@ struct ViewResources {
   VkDeviceSize transportOffset = 0;
   // By PlannedVolume::index; views of like quality share them.
   std::pmr::vector<std::shared_ptr<VolumeLight>> volumeLights;
-  vk::Image viewAmbient;                       // as viewSource, of the light of sky and ground
+  vk::Image viewAmbient;  // as viewSource, of the light of sky and ground
   vk::Buffer ambientWork;
   VkDeviceSize ambientStride = 0;
   VkDeviceSize ambientOffset = 0;

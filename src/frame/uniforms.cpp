@@ -201,7 +201,7 @@ SkyTableKey skyTableKeyOf(const interface_::FrameUniforms& frame) {
   const std::array rows{frame.eye,         first.direction, first.irradiance, second.direction,
                         second.irradiance, frame.air,       frame.fog,        frame.fogAlbedo,
                         frame.skyLight,    frame.skyView,   frame.eyeFog,     frame.fogTable,
-                        frame.skyZeniths,   frame.absorber};
+                        frame.skyZeniths,  frame.absorber};
   SkyTableKey key;
   static_assert(sizeof key == sizeof rows);
   std::memcpy(key.data(), rows.data(), sizeof key);

@@ -155,9 +155,9 @@ SkyField::Lit SkyField::groundAt(double sunMu) const {
   return ground;
 }
 
-// Besides what is gathered: the first order with the peak's light counted as unscattered, less the first
-// order itself; and what comes through the peak from beyond the ray's end. Of that, the ground's
-// own light is what also misses the peak.
+// Besides what is gathered: the first order with the peak's light counted as unscattered, less the
+// first order itself; and what comes through the peak from beyond the ray's end. Of that, the
+// ground's own light is what also misses the peak.
 SkyField::Parts SkyField::higherOrders(double altitude, double viewMu, double sunMu, double viewSun,
                                        double distance, const SkyColor& fogPhase) const {
   Parts result = gatheredAlong(altitude, viewMu, sunMu, viewSun, distance, EYE_STEPS);

@@ -99,8 +99,8 @@ class SkyField {
  private:
   friend class SkyFieldSolver;
 
-  Parts gatheredAlong(double altitude, double viewMu, double sunMu, double viewSun,
-                      double distance, int steps) const;
+  Parts gatheredAlong(double altitude, double viewMu, double sunMu, double viewSun, double distance,
+                      int steps) const;
   SkyColor fogSourceAt(double altitude, const SkyPlace& place, double viewSun) const;
   // First order along a ray that ends at `distance`.
   struct Once {

@@ -345,7 +345,8 @@ SkyFieldSolver::SkyFieldSolver(const SkyFieldInput& input, const SkyFieldSteps& 
   for (size_t c = 0; c < 3; ++c) {
     double top = 1;
     for (size_t l = 1; l < FOG_TERMS; ++l) {
-      top += static_cast<double>(2 * l + 1) * momentWithout(field.eyePeak_, input.fogMoments[l - 1][c]);
+      top += static_cast<double>(2 * l + 1) *
+             momentWithout(field.eyePeak_, input.fogMoments[l - 1][c]);
     }
     field.fogBound_[c] = std::max(top, 1.0) / (4 * PI);
     for (size_t l = 0; l < 2; ++l) {

@@ -38,9 +38,7 @@ class LightSharing : public ::testing::Test {
     scene.setCamera({0, 2, 0}, 0, 12);
     scene.addBall(0.01f);
   }
-  ~LightSharing() override {
-    EXPECT_TRUE(scene.messages().empty()) << scene.messages().front();
-  }
+  ~LightSharing() override { EXPECT_TRUE(scene.messages().empty()) << scene.messages().front(); }
 
   void choose(WlkView view, uint32_t level, uint64_t flags = 0) {
     scene.view = view;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The fog's source of further light against Monte Carlo: radiance from many directions at a point,
 // weighted with the fog's phase function. Relative errors, no unit.
-#include "tables/fog_light_solver.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include <string>
 
 #include "reference/monte_carlo.hpp"
+#include "tables/fog_light_solver.hpp"
 #include "tables/sky_table.hpp"
 
 namespace {

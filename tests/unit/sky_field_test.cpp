@@ -213,8 +213,8 @@ TEST(SkyField, IsFiniteAndNeverNegative) {
 TEST(SkyFieldSolver, GivesTheSameFieldInPortionsOfAnySize) {
   const SkyFieldInput input = inputOf(EARTH, 0.2);
   const SkyField whole = solveSkyField(input, coarseSteps());
-  const size_t rows = SkyField::ALTITUDES * static_cast<size_t>(whole.orders()) +
-                      welkin::FogLightSolver::STEPS;
+  const size_t rows =
+      SkyField::ALTITUDES * static_cast<size_t>(whole.orders()) + welkin::FogLightSolver::STEPS;
   for (const size_t portion : {size_t{1}, size_t{7}, rows}) {
     SkyFieldSolver solver(input, coarseSteps());
     EXPECT_FALSE(solver.advance(0));
