@@ -3,6 +3,7 @@
 // contract of the quality levels.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 
@@ -118,9 +119,11 @@ void measure(const Options& options) {
   study.levelsOnly = options.levelsOnly;
   study.referenceFolder = options.references;
   Ordered report = reportHead(options.commit, study.rounds, options.quick);
+  const auto start = std::chrono::steady_clock::now();
   for (const Case& one : chosenCases(options)) {
     const Study result = studyCase(one, study, [&](const std::string& step) {
-      std::fprintf(stderr, "%s: %s\n", one.name.c_str(), step.c_str());
+      const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start;
+      std::fprintf(stderr, "%5.0f s %s: %s\n", since.count(), one.name.c_str(), step.c_str());
     });
     report["device"] = result.device;
     std::printf("%-16s %-18s %9s %8s %8s %8s %12s %10s %10s %10s\n", one.name.c_str(), "method",

@@ -24,9 +24,9 @@ constexpr double LONG_WARM_UP_ms = 200.0;
 // A method whose first frame takes longer than this (light of all orders) is not copied.
 constexpr double LONG_FIRST_ms = 1000.0;
 // Long frames differ less: from so many times MIN_ROUND_ms on a method is timed in every second
-// round, from twice that in every third.
+// round.
 constexpr double LONG_ROUND = 4.0;
-constexpr size_t MAX_STRIDE = 3;
+constexpr size_t MAX_STRIDE = 2;
 
 struct Sample {
   double wall = 0.0;
@@ -150,7 +150,7 @@ std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor
                 static_cast<double>(turns[i].stride);
   }
   const auto fill = static_cast<size_t>(MIN_STUDY_ms / round_ms);
-  rounds = std::clamp(fill, rounds, MORE_ROUNDS * rounds);
+  rounds = std::max(std::clamp(fill, rounds, MORE_ROUNDS * rounds), MAX_STRIDE);
   std::vector<std::vector<Sample>> samples(methods.size());
   std::vector<std::vector<Sample>> anchors(methods.size());  // of the same rounds
   for (size_t round = 0; round < rounds; ++round) {
