@@ -37,10 +37,14 @@ struct Column {
   const char* form;
   const char* level;
 };
-constexpr Column COLUMNS[] = {{"all-orders", "low"},  {"all-orders", "medium"},
-                              {"all-orders", "high"}, {"all-orders", "ultra"},
-                              {"forward", "low"},     {"forward", "medium"},
-                              {"forward", "high"},    {"forward", "ultra"}};
+constexpr Column COLUMNS[] = {{"all-orders", "low"},       {"all-orders", "medium"},
+                              {"all-orders", "high"},      {"all-orders", "ultra"},
+                              {"forward", "low"},          {"forward", "medium"},
+                              {"forward", "high"},         {"forward", "ultra"},
+                              {"forward-integer", "low"},  {"forward-integer", "medium"},
+                              {"forward-integer", "high"}, {"forward-integer", "ultra"},
+                              {"single", "low"},           {"single", "medium"},
+                              {"single", "high"},          {"single", "ultra"}};
 
 std::vector<const Ordered*> rowsOf(const Ordered& rows, const std::string& kind, const Column& c) {
   std::vector<const Ordered*> found;
@@ -201,7 +205,8 @@ void writeTables(const std::string& page, const Ordered& rows) {
   const size_t from = begin + std::string(BEGIN).size();
   text.replace(from, end - from,
                "\n" + pictureTable(rows, "sphere") + "\n" + pictureTable(rows, "cumulus") + "\n" +
-                   pictureTable(rows, "les") + "\n" + slabTable(rows) + "\n" + timeTable(rows));
+                   pictureTable(rows, "les") + "\n" + pictureTable(rows, "les-single") + "\n" +
+                   slabTable(rows) + "\n" + timeTable(rows));
   std::ofstream stream(page);
   stream << text;
   stream.flush();
