@@ -137,7 +137,11 @@ std::string medianText(const std::vector<const Ordered*>& rows, const char* key)
       values.push_back(row->at(key).get<double>());
     }
   }
-  return values.empty() ? "-" : format("%.0f", medianOf(values));
+  if (values.empty()) {
+    return "-";
+  }
+  const double median = medianOf(values);
+  return format(median < 9.95 ? "%.1f" : "%.0f", median);
 }
 
 std::string timeTable(const Ordered& rows) {
