@@ -8,10 +8,11 @@ const int TRANSPORT_LEVELS = 4;
 const int TRANSPORT_DIRECTIONS = 50;         // at most, on the two finest levels
 const int TRANSPORT_COARSE_DIRECTIONS = 26;  // the first of them: on all others
 // Real spherical harmonics of degree < 4 around the direction in which light travels: Y(l, m) is
-// number l l + l + m, mean square 1. In a layer, around whose normal they are, Y(4, 0) takes the
-// place of Y(3, -3): what an even layer's light has none of, for what it has of its shape at once.
+// number l l + l + m, mean square 1. In a layer, around whose normal they are, Y(4, 0), Y(4, 1) and
+// Y(4, 2) take the places of Y(3, -3) to Y(3, -1): an even layer's light has none of what is odd
+// across the light's plane, and needs degree 4 for views of some 60 degrees.
 const int TRANSPORT_TERMS = 16;
-const int LAYER_FOURTH = 9;  // the number of Y(4, 0) in a layer
+const int LAYER_FOURTH = 9;  // the number of Y(4, 0) in a layer; Y(4, 1) and Y(4, 2) follow
 // Of light scattered once and twice, over the phase functions: 9 harmonics of degree < 3, or 12
 // functions of a layer: for each side of its plane (first those with a positive z) values in
 // LAYER_RINGS rings of directions, between which it is a polynomial in |z|; then x and y of both

@@ -12,6 +12,10 @@ int degreeOf(int term) {
   return term >= 9 ? 3 : (term >= 4 ? 2 : (term >= 1 ? 1 : 0));
 }
 
+bool isFourth(int term, int last) {
+  return term >= LAYER_FOURTH && term <= last;
+}
+
 void main() {
   int level = int(push.level);
   int cell = threadOfStep();
@@ -27,7 +31,7 @@ void main() {
     sum[term] = 0.0f;
   }
   bool layer = first && isLayer();
-  int fourthTerm = isLayer() ? LAYER_FOURTH : -1;
+  int fourths = isLayer() ? LAYER_FOURTH + 2 : -1;  // the last term of degree 4
   int base = layer ? (second ? SECOND_ROWS : FIRST_ROWS) : 0;
   int stride = layer ? 3 : 4;  // a layer's terms of the last row are not used
   bool shaped = second && !layer;
@@ -71,14 +75,14 @@ void main() {
           }
         }
         int term = l * l + l + m;
-        work[driveAt(level, term, cell)] = (term == fourthTerm ? fourth : moments[l]) * drive;
+        work[driveAt(level, term, cell)] = (isFourth(term, fourths) ? fourth : moments[l]) * drive;
         kept[sourceAt(level, term, cell)] = 0.0f;
       }
     }
     return;
   }
   for (int term = 0; term < TRANSPORT_TERMS; ++term) {
-    float now = (term == fourthTerm ? fourth : moments[degreeOf(term)]) * sum[term];
+    float now = (isFourth(term, fourths) ? fourth : moments[degreeOf(term)]) * sum[term];
     int at = sourceAt(level, term, cell);
     work[changeAt(level, term, cell)] = now - kept[at];
     kept[at] = now;

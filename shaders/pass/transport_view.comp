@@ -109,10 +109,15 @@ void main() {
   rest += own * 1.1180340f * (3.0f * z * z - 1.0f) * kept[sourceAt(0, 6, cell)];
   rest += 2.0916501f * x * (x * x - 3.0f * y * y) * kept[sourceAt(0, 15, cell)];
   rest += own * 2.0916501f * y * (3.0f * x * x - y * y) * kept[sourceAt(0, 9, cell)];
-  rest += 10.2469508f * (x * y * z * kept[sourceAt(0, 10, cell)] +
-                         0.5f * z * (x * x - y * y) * kept[sourceAt(0, 14, cell)]);
-  rest += 1.6201852f * (5.0f * z * z - 1.0f) *
-          (y * kept[sourceAt(0, 11, cell)] + x * kept[sourceAt(0, 13, cell)]);
+  // In a layer terms 10 and 11 are Y(4, 1) and Y(4, 2).
+  float z2 = z * z;
+  rest += (layer ? 2.3717082f * x * z * (7.0f * z2 - 3.0f) : 10.2469508f * x * y * z) *
+          kept[sourceAt(0, LAYER_FOURTH + 1, cell)];
+  rest += (layer ? 1.6770510f * (x * x - y * y) * (7.0f * z2 - 1.0f)
+                 : 1.6201852f * y * (5.0f * z2 - 1.0f)) *
+          kept[sourceAt(0, LAYER_FOURTH + 2, cell)];
+  rest += 5.1234754f * z * (x * x - y * y) * kept[sourceAt(0, 14, cell)];
+  rest += 1.6201852f * (5.0f * z2 - 1.0f) * x * kept[sourceAt(0, 13, cell)];
   rest += 1.3228757f * z * (5.0f * z * z - 3.0f) * kept[sourceAt(0, 12, cell)];
 
   vec4 all = vec4(rest, kept[sourceAt(0, 2, cell)], kept[sourceAt(0, 6, cell)],

@@ -114,9 +114,11 @@ TransportFan layerFan(const TransportMedia& media, const glm::dmat3& box,
     fan.direction[d] = layer.direction[d];
     fan.fine[d] = layer.weight[d];
     fillHarmonics(layer.local[d], &out.rows[d * 4]);
-    const double square = layer.local[d].z * layer.local[d].z;
-    out.rows[d * 4 + interface_::LAYER_FOURTH / 4][interface_::LAYER_FOURTH % 4] =
-        static_cast<float>(0.375 * (square * (35 * square - 30) + 3));
+    const std::array<double, 3> fourth = layerFourth(layer.local[d]);
+    for (size_t m = 0; m < fourth.size(); ++m) {
+      const size_t term = interface_::LAYER_FOURTH + m;
+      out.rows[d * 4 + term / 4][static_cast<int>(term % 4)] = static_cast<float>(fourth[m]);
+    }
     const double cosine = std::clamp(glm::dot(layer.local[d], layer.travel), -1.0, 1.0);
     twice[d] = std::max(transportPair(media, 0, std::acos(cosine)), 1e-6);
   }

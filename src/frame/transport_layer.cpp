@@ -89,6 +89,13 @@ TransportLayer transportLayer(const glm::dmat3& box, int thinAxis, const glm::dv
   return layer;
 }
 
+std::array<double, 3> layerFourth(const glm::dvec3& v) {
+  const double square = v.z * v.z;
+  return {0.375 * (square * (35 * square - 30) + 3),
+          0.75 * std::sqrt(10.0) * v.x * v.z * (7 * square - 3),
+          0.75 * std::sqrt(5.0) * (v.x * v.x - v.y * v.y) * (7 * square - 1)};
+}
+
 void fillLayerRows(const TransportLayer& layer, const std::array<double, COUNT>& twice,
                    glm::vec4* rows) {
   std::array<double, COUNT> even;

@@ -24,6 +24,9 @@ struct TransportLayer {
 glm::dvec3 layerNormal(const glm::dmat3& box, int thinAxis);
 TransportLayer transportLayer(const glm::dmat3& box, int thinAxis, const glm::dvec3& travel);
 
+// Y(4, 0), Y(4, 1), Y(4, 2) of a direction in the frame, mean square 1.
+std::array<double, 3> layerFourth(const glm::dvec3& v);
+
 // Rows of TransportUniforms from FIRST_ROWS and SECOND_ROWS. `twice`: the phase function of two
 // turns in each direction, any scale.
 void fillLayerRows(const TransportLayer& layer,

@@ -33,7 +33,8 @@ struct Options {
   VolumeOptions volume;
   std::string from;
   uint32_t children = 3;  // per number of threads
-  bool halfSky = false;   // a child that measures that alone
+  bool halfSky = false;
+  bool scaling = false;  // a child that measures that alone
 };
 
 // The driver reads its thread count once, so that every one needs a process of its own.
@@ -98,6 +99,12 @@ Ordered compareThreads(const Options& options) {
 }
 
 int run(const Options& options) {
+  if (options.scaling) {
+    VolumeResults results;
+    results.scalings = measureScaling(options.volume);
+    writeJson(options.out, volumeJson(results));
+    return 0;
+  }
   if (options.halfSky) {
     writeJson(options.out, measureHalfSky(options.volume));
     return 0;
@@ -150,6 +157,7 @@ int main(int argc, char** argv) {
   app.add_option("--rounds", options.volume.rounds, "of timing, at least, default 5")
       ->check(CLI::Range(1, 1000));
   app.add_flag("--validation", options.volume.validation, "under the Vulkan validation layer");
+  app.add_flag("--scaling", options.scaling, "measures how cost grows, and nothing else");
   app.add_flag("--half-sky", options.halfSky, "measures sky above, cloud below, and nothing else");
   CLI11_PARSE(app, argc, argv);
   try {

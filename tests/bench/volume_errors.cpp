@@ -27,6 +27,7 @@ struct Options {
   std::vector<std::string> levels;
   std::vector<std::string> forms;
   uint32_t rounds = 3;
+  uint32_t light = 0;
   bool quick = false;
 };
 
@@ -35,12 +36,23 @@ struct Form {
   uint32_t scattering;
 };
 constexpr Form FORMS[] = {{"all-orders", WLK_SCATTERING_ALL_ORDERS},
-                          {"forward", WLK_SCATTERING_FORWARD}};
+                          {"forward", WLK_SCATTERING_FORWARD},
+                          {"forward-integer", WLK_SCATTERING_FORWARD_INTEGER},
+                          {"single", WLK_SCATTERING_SINGLE}};
+
+// Truth of light scattered once is for that form alone, and all other truth for the others.
+bool fits(const VolumeGroup& group, const Form& form) {
+  return (group.kind == "les-single") == (form.scattering == WLK_SCATTERING_SINGLE);
+}
 
 bool chosen(const std::vector<std::string>& names, const std::string& name) {
   return names.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& start) {
            return name.rfind(start, 0) == 0;
          });
+}
+
+bool named(const std::vector<std::string>& names, const std::string& name) {
+  return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
 }
 
 // Of a quick run: one of each kind.
@@ -139,14 +151,15 @@ void run(const Options& options) {
     report["rows"] = readRows(options.json);
   }
   const std::vector<VolumeGroup> groups = volumeGroups(options.truth, options.les);
-  VolumeWorld world;
+  VolumeWorld world(options.light);
   report["device"] = deviceOf(world.capabilities());
   const Form* warm = nullptr;
   for (const Form& form : FORMS) {
     for (uint32_t level = 0; level < LEVEL_COUNT; ++level) {
       for (const VolumeGroup& group : groups) {
         if (!chosen(options.names, group.name) || !chosen(options.levels, levelName(level)) ||
-            !chosen(options.forms, form.name) || (options.quick && !isQuick(group))) {
+            !named(options.forms, form.name) || !fits(group, form) ||
+            (options.quick && !isQuick(group))) {
           continue;
         }
         if (warm != &form) {  // the driver compiles when a pipeline is used first
@@ -190,7 +203,10 @@ int main(int argc, char** argv) {
   app.add_option("--commit", options.commit, "Name of the source's state, for the results");
   several("--case", options.names, "Volumes whose names begin with this; may be repeated");
   several("--level", options.levels, "low, medium, high or ultra; may be repeated");
-  several("--form", options.forms, "all-orders or forward; may be repeated");
+  several("--form", options.forms,
+          "all-orders, forward, forward-integer or single; may be repeated");
+  app.add_option("--light", options.light,
+                 "Texels along the light buffer's edge (default: the level's)");
   app.add_option("--rounds", options.rounds, "Of timing (default 3)")->check(CLI::Range(1, 1000));
   app.add_flag("--quick", options.quick, "One volume of each kind, one round");
   CLI11_PARSE(app, argc, argv);

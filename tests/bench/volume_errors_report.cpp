@@ -37,10 +37,14 @@ struct Column {
   const char* form;
   const char* level;
 };
-constexpr Column COLUMNS[] = {{"all-orders", "low"},  {"all-orders", "medium"},
-                              {"all-orders", "high"}, {"all-orders", "ultra"},
-                              {"forward", "low"},     {"forward", "medium"},
-                              {"forward", "high"},    {"forward", "ultra"}};
+constexpr Column COLUMNS[] = {{"all-orders", "low"},       {"all-orders", "medium"},
+                              {"all-orders", "high"},      {"all-orders", "ultra"},
+                              {"forward", "low"},          {"forward", "medium"},
+                              {"forward", "high"},         {"forward", "ultra"},
+                              {"forward-integer", "low"},  {"forward-integer", "medium"},
+                              {"forward-integer", "high"}, {"forward-integer", "ultra"},
+                              {"single", "low"},           {"single", "medium"},
+                              {"single", "high"},          {"single", "ultra"}};
 
 std::vector<const Ordered*> rowsOf(const Ordered& rows, const std::string& kind, const Column& c) {
   std::vector<const Ordered*> found;
@@ -133,7 +137,11 @@ std::string medianText(const std::vector<const Ordered*>& rows, const char* key)
       values.push_back(row->at(key).get<double>());
     }
   }
-  return values.empty() ? "-" : format("%.0f", medianOf(values));
+  if (values.empty()) {
+    return "-";
+  }
+  const double median = medianOf(values);
+  return format(median < 9.95 ? "%.1f" : "%.0f", median);
 }
 
 std::string timeTable(const Ordered& rows) {
@@ -201,7 +209,8 @@ void writeTables(const std::string& page, const Ordered& rows) {
   const size_t from = begin + std::string(BEGIN).size();
   text.replace(from, end - from,
                "\n" + pictureTable(rows, "sphere") + "\n" + pictureTable(rows, "cumulus") + "\n" +
-                   pictureTable(rows, "les") + "\n" + slabTable(rows) + "\n" + timeTable(rows));
+                   pictureTable(rows, "les") + "\n" + pictureTable(rows, "les-single") + "\n" +
+                   slabTable(rows) + "\n" + timeTable(rows));
   std::ofstream stream(page);
   stream << text;
   stream.flush();

@@ -168,6 +168,10 @@ std::vector<VolumeGroup> volumeGroups(const std::string& folder, const std::stri
   for (const CloudCase& one : les.empty() ? std::vector<CloudCase>() : lesCases()) {
     groups.push_back(cloudGroup(folder, one, "les", [les] { return lesExtinction(les); }));
   }
+  for (const CloudCase& one : les.empty() ? std::vector<CloudCase>() : lesSingleCases()) {
+    groups.push_back(cloudGroup(folder, one, "les-single", [les] { return lesExtinction(les); }));
+    groups.back().perPixel = LES_SINGLE_RAYS;
+  }
   for (const SlabTruth& row : readSlabTruth(folder + "/slabs.csv")) {
     if (groups.back().name != slabName(row)) {
       groups.push_back(slabGroup(row));
@@ -177,7 +181,8 @@ std::vector<VolumeGroup> volumeGroups(const std::string& folder, const std::stri
   return groups;
 }
 
-VolumeWorld::VolumeWorld() : context_(host::makeHeadlessContext(false, "", log_)) {}
+VolumeWorld::VolumeWorld(uint32_t lightBufferSize)
+    : context_(host::makeHeadlessContext(false, "", log_)), lightBufferSize_(lightBufferSize) {}
 
 void VolumeWorld::clear() {
   if (group_ == nullptr) {
@@ -218,6 +223,7 @@ void VolumeWorld::show(const VolumeGroup& group, uint32_t level, uint32_t scatte
   auto quality = host::make<WlkQuality>();
   quality.level = level;
   quality.scattering = scattering;
+  quality.lightBufferSize = lightBufferSize_;
   host::check(wlkSetQuality(context, view_, &quality), "wlkSetQuality");
   group_ = &group;
   turnLight(0);

@@ -24,7 +24,7 @@ struct VolumeShot {
 /// Shots of one volume in one light.
 struct VolumeGroup {
   std::string name;
-  std::string kind;  // "sphere", "cumulus", "les", "slab"
+  std::string kind;  // "sphere", "cumulus", "les", "les-single", "slab"
   std::array<uint32_t, 3> size{};
   std::function<std::vector<float>()> extinction;  // 1/m, x fastest
   host::Affine place{};
@@ -48,7 +48,8 @@ struct VolumeFrame {
 /// One context with one volume and one view.
 class VolumeWorld {
  public:
-  VolumeWorld();
+  // 0: the light buffer of the level.
+  explicit VolumeWorld(uint32_t lightBufferSize = 0);
   /// Takes the place of the volume and the view before.
   void show(const VolumeGroup& group, uint32_t level, uint32_t scattering);
   /// The light by `steps` millionths of a radian beside its place: what was kept is void.
@@ -63,6 +64,7 @@ class VolumeWorld {
 
   host::LogCounter log_;  // outlives the context
   host::ContextPtr context_;
+  uint32_t lightBufferSize_;
   const VolumeGroup* group_ = nullptr;
   uint32_t width_ = 0;
   uint32_t height_ = 0;

@@ -306,7 +306,7 @@ std::string volumeTables(const VolumeResults& results) {
   text += equalTable(results.studies);
   text +=
       "\nCost of a frame of the library, as it grows (light buffer 256, full cloud but for the "
-      "last line):\n\n";
+      "last two lines):\n\n";
   text += fitTable(results.scalings);
   text += "\nEvery method:\n\n";
   text += studyTable(results.studies);

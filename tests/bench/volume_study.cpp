@@ -239,7 +239,18 @@ struct Point {
   uint32_t size;
   uint32_t slices;
   double occupied;
+  uint32_t deep = 1;  // see WelkinVolumeOptions
 };
+
+constexpr double BRICKS = 512;  // of a cloud
+
+// Slabs of the same thickness across a box that is as many clouds deep.
+uint32_t slabsFor(uint32_t slices, uint32_t deep) {
+  const Vec3 l = cloudLight(LIGHT_DEG);
+  const double side = std::abs(l.x) + std::abs(l.y);
+  const double along = std::abs(l.z);
+  return static_cast<uint32_t>(std::lround(slices * (side + along * deep) / (side + along)));
+}
 
 Scaling scale(const char* what, const std::vector<Point>& points, uint32_t rounds) {
   Gpu gpu;
@@ -249,14 +260,15 @@ Scaling scale(const char* what, const std::vector<Point>& points, uint32_t round
   for (const Point& point : points) {
     const Cloud cloud = makeCloud(point.occupied);
     WelkinVolumeOptions options;
-    options.slices = point.slices;
+    options.slices = slabsFor(point.slices, point.deep);
     options.lightSize = LIGHT_SIZE;
+    options.deep = point.deep;
     frames.push_back(std::make_unique<WelkinVolume>(gpu, makeTarget(gpu, point.size), &cloud,
                                                     cloudLight(LIGHT_DEG), options));
     WelkinVolume* frame = frames.back().get();
     copies.push_back(
         {[&gpu, frame] { return gpu.run([&](VkCommandBuffer c) { frame->record(c); }); }});
-    scaling.x.push_back(point.x < 0 ? cloud.occupied * 512 : point.x);
+    scaling.x.push_back(point.x < 0 ? cloud.occupied * BRICKS : point.x);
   }
   const std::vector<Timing> timings = interleave(copies, 0, WARM_UPS, rounds);
   for (size_t i = 0; i < points.size(); ++i) {
@@ -379,8 +391,14 @@ std::vector<Scaling> measureScaling(const VolumeOptions& options) {
   for (const double occupied : {0.05, 0.2, 0.5, 1.0}) {
     bricks.push_back({-1, SMALL, SLICES, occupied});
   }
+  // The same cloud in ever larger boxes: empty bricks behind it, slabs as thick.
+  std::vector<Point> empty;
+  for (const uint32_t deep : {1u, 2u, 4u, 8u}) {
+    empty.push_back({(deep - 0.2) * BRICKS, SMALL, SLICES, 0.2, deep});
+  }
   return {scale("pixels", pixels, options.rounds), scale("slices", slices, options.rounds),
-          scale("occupied bricks", bricks, options.rounds)};
+          scale("occupied bricks", bricks, options.rounds),
+          scale("empty bricks", empty, options.rounds)};
 }
 
 Ordered measureSkips(const VolumeOptions& options) {

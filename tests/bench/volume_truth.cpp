@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -108,6 +109,28 @@ std::vector<CloudCase> lesCases() {
   cloud.width = 32;
   cloud.height = 32;
   return withSuns(cloud);
+}
+
+std::vector<CloudCase> lesSingleCases() {
+  const CloudCase cloud = lesCases().front();
+  const Point view =
+      welkin::reference::normalized(welkin::reference::minus(cloud.target, cloud.eye));
+  // Above the horizon, along no axis of the box.
+  const Point right = welkin::reference::normalized(welkin::reference::cross(view, {-0.3, 1, 0}));
+  const Point side = welkin::reference::cross(right, view);
+  std::vector<CloudCase> cases;
+  for (const double angle : LES_SINGLE_ANGLES) {
+    CloudCase one = cloud;
+    char name[32];
+    std::snprintf(name, sizeof name, "les-single-%g", angle);
+    one.name = name;
+    one.droplets = false;
+    for (size_t k = 0; k < 3; ++k) {
+      one.sun[k] = std::cos(angle * RADIANS) * view[k] + std::sin(angle * RADIANS) * side[k];
+    }
+    cases.push_back(one);
+  }
+  return cases;
 }
 
 double TruthImage::mean() const {

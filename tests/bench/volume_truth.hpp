@@ -53,6 +53,11 @@ struct CloudCase {
 std::vector<CloudCase> cumulusCases();
 // The same suns for the cloud of samples/scenes/les-cloud.json, "les-back-hg".
 std::vector<CloudCase> lesCases();
+// The same cloud and camera, Henyey-Greenstein, light scattered once, with the sun at angles to the
+// view: "les-single-10". A pixel is the mean of LES_SINGLE_RAYS^2 rays through its parts' middles.
+constexpr std::array<double, 6> LES_SINGLE_ANGLES = {10, 45, 89.9, 90.1, 135, 170};  // degrees
+constexpr int LES_SINGLE_RAYS = 4;
+std::vector<CloudCase> lesSingleCases();
 
 // Rows angle_deg,phase: `cloud` of 12 um at 0.55 um as the library has it, 1/sr; linear in
 // 1 - cos between the angles.

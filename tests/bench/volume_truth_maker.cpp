@@ -6,6 +6,7 @@
 //   --dir F --only sphere-10 --only sphere-30 --paths 20000    9 minutes
 //   --dir F --only cumulus --paths 10000 --seed 1              7 minutes
 //   --dir F --slabs                                            1 minute
+//   --dir F --les DATA --only les-single
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,7 @@
 #include "bench/volume_truth.hpp"
 #include "common/error.hpp"
 #include "common/volume.hpp"
+#include "reference/raymarch.hpp"
 #include "reference/slab_monte_carlo.hpp"
 #include "reference/slab_solver.hpp"
 
@@ -85,6 +87,43 @@ void makeClouds(const Options& options, const std::vector<CloudCase>& cases,
       return traceCloud(one, load(), phase, paths, seed);
     });
   }
+}
+
+// Light scattered once, along the very rays that welkin_volume_errors draws: no noise.
+TruthImage marchCloud(const CloudCase& one, const std::vector<float>& extinction) {
+  rt::VoxelField field;
+  field.size = one.voxels;
+  field.extinction.assign(extinction.begin(), extinction.end());
+  field.worldFromBox = {one.extent[0], 0, 0, one.min[0],    0,         one.extent[1], 0,
+                        one.min[1],    0, 0, one.extent[2], one.min[2]};
+  const rt::RayMarch march(field);
+  const rt::PhaseFunction phase = rt::PhaseFunction::henyeyGreenstein(TRUTH_G);
+  const rt::Point forward = rt::normalized(rt::minus(one.target, one.eye));
+  const rt::Point right = rt::normalized(rt::cross(forward, {0, 1, 0}));
+  const rt::Point up = rt::cross(right, forward);
+  const double half = std::tan(0.5 * one.verticalFov_deg * RADIANS);
+  constexpr int N = LES_SINGLE_RAYS;
+  TruthImage image;
+  image.paths = N * N;
+  image.width = one.width;
+  image.height = one.height;
+  image.radiance.resize(static_cast<size_t>(one.width * one.height));
+  image.error.resize(image.radiance.size());
+  for (int y = 0; y < N * one.height; ++y) {
+    for (int x = 0; x < N * one.width; ++x) {
+      const double u = ((x + 0.5) / N - 0.5 * one.width) * 2 * half / one.height;
+      const double v = (0.5 * one.height - (y + 0.5) / N) * 2 * half / one.height;
+      rt::Point d{};
+      for (size_t k = 0; k < 3; ++k) {
+        d[k] = forward[k] + u * right[k] + v * up[k];
+      }
+      d = rt::normalized(d);
+      image.radiance[static_cast<size_t>(y / N * one.width + x / N)] +=
+          phase.value(1, 1 - rt::dot(d, one.sun)) *
+          march.march(one.eye, d, 1e30, one.sun).scattered / (N * N);
+    }
+  }
+  return image;
 }
 
 // Three directions on each side, for each thickness and sun; every fifth by Monte Carlo too.
@@ -164,6 +203,10 @@ void run(const Options& options) {
   makeClouds(options, cumulusCases(), cumulusExtinction);
   if (!options.les.empty()) {
     makeClouds(options, lesCases(), [&] { return lesExtinction(options.les); });
+    for (const CloudCase& one : lesSingleCases()) {
+      make(options, one.name,
+           [&](uint64_t, uint64_t) { return marchCloud(one, lesExtinction(options.les)); });
+    }
   }
 }
 

@@ -36,10 +36,10 @@ WelkinVolume::WelkinVolume(Gpu& gpu, const GpuImage& target, const Cloud* cloud,
     welkin::check(wlkSetSky(context_, &sky));
   }
   if (cloud != nullptr) {
-    addVolume(cloud);
+    addVolume(cloud, options.deep);
   }
   if (options.emptyVolume) {
-    addVolume(nullptr);
+    addVolume(nullptr, 1);
   }
   for (uint32_t i = 0; i < options.views; ++i) {
     auto view = welkin::make<WlkViewInfo>();
@@ -71,7 +71,7 @@ WelkinVolume::WelkinVolume(Gpu& gpu, const GpuImage& target, const Cloud* cloud,
   welkin::check(wlkPrepare(context_));
 }
 
-void WelkinVolume::addVolume(const Cloud* cloud) {
+void WelkinVolume::addVolume(const Cloud* cloud, uint32_t deep) {
   auto medium = welkin::make<WlkMediumInfo>();
   medium.particle = WLK_PARTICLE_HENYEY_GREENSTEIN;
   medium.asymmetry = static_cast<float>(CLOUD_G);
@@ -82,10 +82,12 @@ void WelkinVolume::addVolume(const Cloud* cloud) {
   std::fill(std::begin(info.size), std::end(info.size), static_cast<uint32_t>(CLOUD_VOXELS));
   info.fieldCount = 1;
   info.fields = &field;
-  const Vec3 corner = cloudCorner();
-  const std::array<double, 12> place{CLOUD_EDGE, 0,          0,          corner.x,
-                                     0,          CLOUD_EDGE, 0,          corner.y + EYE_ALTITUDE,
-                                     0,          0,          CLOUD_EDGE, corner.z};
+  info.size[2] *= deep;
+  Vec3 corner = cloudCorner();
+  corner.z -= (deep - 1) * CLOUD_EDGE;
+  const std::array<double, 12> place{
+      CLOUD_EDGE,        0,       0, corner.x, 0, CLOUD_EDGE, 0, corner.y + EYE_ALTITUDE, 0, 0,
+      deep * CLOUD_EDGE, corner.z};
   std::copy(place.begin(), place.end(), info.worldFromVolume);
   WlkVolume volume{};
   welkin::check(wlkCreateVolume(context_, &info, &volume));
@@ -95,8 +97,10 @@ void WelkinVolume::addVolume(const Cloud* cloud) {
   auto upload = welkin::make<WlkVolumeUpload>();
   upload.format = WLK_FORMAT_R16_FLOAT;
   std::copy(std::begin(info.size), std::end(info.size), upload.extent);
-  upload.data = cloud->halves.data();
-  upload.dataSize = cloud->halves.size() * sizeof(uint16_t);
+  std::vector<uint16_t> halves((deep - 1) * cloud->halves.size());
+  halves.insert(halves.end(), cloud->halves.begin(), cloud->halves.end());
+  upload.data = halves.data();
+  upload.dataSize = halves.size() * sizeof(uint16_t);
   welkin::check(wlkUploadVolume(context_, volume, &upload));
 }
 

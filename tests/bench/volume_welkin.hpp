@@ -17,6 +17,7 @@ struct WelkinVolumeOptions {
   uint32_t views = 1;        // side by side, 6 cm apart
   bool fresh = false;        // light is computed in every frame
   bool half = false;         // rays of every second pixel
+  uint32_t deep = 1;         // the volume in clouds' edges, all but the nearest of them empty
   bool emptyVolume = false;  // a second volume that holds nothing
   // The default sky and orders of scattering, and the cloud below the horizon in the picture.
   bool underSky = false;
@@ -36,7 +37,7 @@ class WelkinVolume {
   std::vector<std::pair<std::string, uint32_t>> commands(size_t view) const;
 
  private:
-  void addVolume(const Cloud* cloud);
+  void addVolume(const Cloud* cloud, uint32_t deep);
   std::vector<WlkPassStats> passes(size_t view, WlkFrameStats& stats) const;
 
   welkin::Context context_;

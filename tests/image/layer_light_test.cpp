@@ -95,6 +95,13 @@ TEST_F(Layer, SeenFromAfarIsThatOfDiscreteOrdinates) {
   EXPECT_LT(worst(32, 100e3), 0.05);
 }
 
+// Light that goes on towards the sun's side, below a layer and a low sun: without Y(4, 1) it is
+// 6 % too bright.
+TEST_F(Layer, OfALowSunIsDimTowardsTheSunFromBelow) {
+  light(75, WLK_SCATTERING_ALL_ORDERS);
+  EXPECT_LT(worst(4.5, 100e3), 0.04);
+}
+
 // An eye close to cells that are wide sees each ray's direction, not that of the cells' middles.
 TEST_F(Layer, SeenFromNearbyIsTheSame) {
   light(63, WLK_SCATTERING_ALL_ORDERS);
