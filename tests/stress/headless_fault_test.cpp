@@ -101,6 +101,9 @@ TEST_F(HeadlessFaults, EveryCallOfVulkanMayFailOnce) {
   for (uint64_t k = 0; k < calls && !HasFailure(); ++k) {
     for (uint64_t i = 0; i < (strideOfAll() > 0 ? CODES.size() : 1); ++i) {
       const VkResult code = CODES[(k + i) % CODES.size()];
+      if (k == 0 && code == VK_ERROR_DEVICE_LOST) {
+        continue;  // vkCreateInstance has no device to lose
+      }
       SCOPED_TRACE("call " + std::to_string(k) + " returns " + std::to_string(code));
       live(k, code);
     }
