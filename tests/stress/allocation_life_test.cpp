@@ -94,6 +94,7 @@ TEST_P(AllocationFaults, EachLeavesTheContextAsItWas) {
   const uint64_t allocations = live(kind, CountingAllocator::NEVER, Failing::ONCE);
   const std::vector<double> truth = end;
   ASSERT_GT(allocations, 50u);
+  EXPECT_GT(truth.at(1), 0.0) << "the transmittance";
   for (uint64_t n = 0; n < allocations && !HasFailure(); n += stride) {
     for (const Failing failing : {Failing::ONCE, Failing::ON}) {
       SCOPED_TRACE("allocation " + std::to_string(n) + " of " + std::to_string(allocations));

@@ -455,23 +455,27 @@ std::vector<double> Life::told() const {
     all.push_back(result);
     all.insert(all.end(), values);
   };
+  // The call first: what it fills is read after it.
   const double from[3] = {0, 2, 0};
   const double to[3] = {1000, 3000, 0};
   double rgb[3] = {};
-  say(wlkEvalTransmittance(context, from, to, rgb), {rgb[0], rgb[1], rgb[2]});
+  WlkResult result = wlkEvalTransmittance(context, from, to, rgb);
+  say(result, {rgb[0], rgb[1], rgb[2]});
   double light[3] = {};
-  say(wlkEvalLight(context, 0, from, light), {light[0], light[1], light[2]});
+  result = wlkEvalLight(context, 0, from, light);
+  say(result, {light[0], light[1], light[2]});
   auto optics = make<WlkMediumOptics>();
-  say(wlkGetMediumOptics(context, medium, &optics), {double{optics.asymmetry[0]}});
+  result = wlkGetMediumOptics(context, medium, &optics);
+  say(result, {double{optics.asymmetry[0]}});
   for (const WlkVolume one : {volume, second}) {
     auto state = make<WlkVolumeState>();
-    const WlkResult result = wlkGetVolumeState(context, one, &state);
+    result = wlkGetVolumeState(context, one, &state);
     say(result, {double(state.occupiedBricks), double(state.storedBricks),
                  double(state.deviceMemory), double(state.pendingMemory)});
   }
   auto quality = make<WlkQualityState>();
-  say(wlkGetQualityState(context, view, &quality),
-      {double(quality.control), double(quality.rung), double(quality.sliceCount)});
+  result = wlkGetQualityState(context, view, &quality);
+  say(result, {double(quality.control), double(quality.rung), double(quality.sliceCount)});
   return all;
 }
 
