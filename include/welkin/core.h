@@ -63,7 +63,8 @@ enum {
   /** Vulkan reported no device memory, or the resource exceeds a device limit's memory. */
   WLK_ERROR_OUT_OF_DEVICE_MEMORY = -7,
   /** Vulkan reported a lost device. From here on all that needs the device fails so without a call
-   *  of Vulkan; destroy calls free what they can. */
+   *  of Vulkan: what creates volumes, surfaces, views and maps, uploads, prepares, records or reads
+   *  back. Setters and queries go on; destroy calls and wlkVulkanForgetImage free what they can. */
   WLK_ERROR_DEVICE_LOST = -8,
   /** A format that the role does not support. */
   WLK_ERROR_UNSUPPORTED_FORMAT = -9,

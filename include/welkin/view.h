@@ -365,7 +365,8 @@ typedef struct WlkImageData {
   uint64_t dataSize;
 } WlkImageData;
 
-/** Copies an image of the view's last headless frame. [C] NOT_READY before the first frame. */
+/** Copies an image of the view's last headless frame. [C] NOT_READY before the first and after one
+ *  that failed. Errors: WRONG_STATE, INVALID_ARGUMENT, DEVICE_LOST (nobody knows what it holds). */
 WLK_API WlkResult wlkReadback(WlkContext context, WlkView view, const WlkImageData* image);
 
 /* --------------------------------------------------------------------------------- statistics */
@@ -458,8 +459,7 @@ WLK_API const char* wlkReasonName(uint32_t reason);
 
 /** What keeps a picture from the truth. */
 enum {
-  /** Sky light: with WLK_SCATTERING_SINGLE all that was scattered more than once or came from the
-   *  ground. */
+  /** Sky light: with WLK_SCATTERING_SINGLE what was scattered more than once or by the ground. */
   WLK_APPROXIMATION_SKY = 0,
   /** Light scattered more than once in the fog layer, by two Legendre terms. */
   WLK_APPROXIMATION_FOG = 1,

@@ -161,6 +161,9 @@ WlkContext_T::~WlkContext_T() {
   if (!device) {
     return;
   }
+  if (headless && !deviceLost) {
+    headless->settle();
+  }
   for (uint32_t i = 0; i < views.slotCount(); ++i) {
     if (ViewState* view = views.at(i)) {
       destroyView(*device, *view);
@@ -277,6 +280,12 @@ void WlkContext_T::retireView(ViewState& view) {
   Retired& entry = retired.emplace_back(&memory);
   entry.frame = frameIndex;
   std::swap(entry.view, view.resources);
+}
+
+void WlkContext_T::harvest(ViewState& view) {
+  if (!deviceLost) {
+    welkin::harvest(*device, view, completedFrame);
+  }
 }
 
 void WlkContext_T::collect() {

@@ -141,6 +141,8 @@ struct WlkContext_T {
   // Forget what descriptor sets point to: handles may be reused for other objects.
   void forgetBindings();
   void retireView(welkin::ViewState& view);
+  // Reads the times of finished frames, unless there is no device any more that could tell.
+  void harvest(welkin::ViewState& view);
   void collect();
   void emit(uint32_t severity, const char* text) const;
 };

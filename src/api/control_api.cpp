@@ -8,7 +8,7 @@ namespace welkin {
 
 void beginControl(WlkContext_T& c, ViewState& view) {
   if (governed(view.quality)) {
-    harvest(*c.device, view, c.completedFrame);
+    c.harvest(view);
     view.governor.beginFrame(c.frameIndex);
   }
 }
@@ -50,7 +50,7 @@ WlkResult wlkGetQualityState(WlkContext context, WlkView view, WlkQualityState* 
     checkOutput(state, WLK_STRUCT_QUALITY_STATE, sizeof *state);
     const bool control = governed(v.quality);
     if (control) {
-      harvest(*c.device, v, c.completedFrame);
+      c.harvest(v);
     }
     const GovernorState& governor = v.governor.state();
     const SliceQuality quality =

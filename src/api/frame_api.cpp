@@ -162,6 +162,7 @@ void renderHeadless(WlkContext_T& c, ViewState& view, const WlkHeadlessTargets& 
   }
   memoryBarrier(vk, commands, {VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
                 {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
+  r.rendered = false;
   c.headless->submitAndWait();
   r.rendered = true;
   c.completedFrame = c.frameIndex;
@@ -351,6 +352,7 @@ WlkResult wlkPrepare(WlkContext context) {
     c.recordVolumes.reserve(c.volumes.count());
     c.errorVolumes.reserve(c.volumes.count());
     c.recordSurfaces.reserve(c.surfaces.count());
+    c.shadowCasters.reserve(c.volumes.count());
     for (uint32_t i = 0; i < c.views.slotCount(); ++i) {
       ViewState* view = c.views.at(i);
       if (view != nullptr && nearSpace(c, *view) && !view->resources.space) {
@@ -360,7 +362,14 @@ WlkResult wlkPrepare(WlkContext context) {
         continue;
       }
       c.retired.reserve(c.retired.size() + 1);
-      // prepareView swaps new resources in; the old ones wait for their frames.
+      view->plan.volumes.reserve(c.volumes.count());
+      view->planVolumes.reserve(c.volumes.count());
+      view->plan.surfaces.reserve(c.surfaces.count());
+      view->planSurfaces.reserve(c.surfaces.count());
+      view->record.passes.reserve(passRoom(c.volumes.count(), c.surfaces.count()));
+      view->record.times.reserve(passRoom(c.volumes.count(), c.surfaces.count()));
+      // prepareView swaps new resources in; the old ones wait for their frames. From there on
+      // nothing may throw: nobody else owns what the carrier has.
       ViewState carrier(&c.memory);
       carrier.info = view->info;
       carrier.quality = view->quality;
@@ -370,12 +379,6 @@ WlkResult wlkPrepare(WlkContext context) {
       chooseStores(c, *view, features);
       prepareView(device, *c.pipelines, carrier, c.volumes.count(), c.maxFramesInFlight, features,
                   {fieldKinds.data(), kinds}, c.viewLights, &c.memory);
-      view->plan.volumes.reserve(c.volumes.count());
-      view->planVolumes.reserve(c.volumes.count());
-      view->plan.surfaces.reserve(c.surfaces.count());
-      view->planSurfaces.reserve(c.surfaces.count());
-      view->record.passes.reserve(passRoom(c.volumes.count(), c.surfaces.count()));
-      view->record.times.reserve(passRoom(c.volumes.count(), c.surfaces.count()));
       c.retireView(*view);
       std::swap(view->resources, carrier.resources);
       view->prepared = true;
@@ -418,7 +421,7 @@ WlkResult wlkBeginFrame(WlkContext context, const WlkFrameInfo* frame) {
     c.completedFrame = f.completedFrameIndex;
     for (uint32_t i = 0; i < c.views.slotCount(); ++i) {
       if (ViewState* view = c.views.at(i)) {
-        harvest(*c.device, *view, c.completedFrame);
+        c.harvest(*view);
       }
     }
     c.collect();
@@ -454,6 +457,7 @@ WlkResult wlkReadback(WlkContext context, WlkView view, const WlkImageData* imag
     ViewState& state = c.view(view);
     const WlkImageData value = copyStruct(image, WLK_STRUCT_IMAGE_DATA);
     checkNoChain(image);
+    c.requireDevice("wlkReadback");
     if (!c.headless) {
       fail(WLK_ERROR_WRONG_STATE, 0, "context", "wlkReadback needs a headless context");
     }

@@ -124,7 +124,6 @@ void retireShadowMap(WlkContext_T& c, ShadowMapState& map) {
 }
 
 void prepareShadowMaps(WlkContext_T& c, std::span<const uint32_t> fieldKinds) {
-  c.shadowCasters.reserve(c.volumes.count());
   for (uint32_t i = 0; i < c.shadowMaps.slotCount(); ++i) {
     ShadowMapState* map = c.shadowMaps.at(i);
     if (map == nullptr || map->prepared) {
@@ -225,7 +224,9 @@ WlkResult wlkVulkanGetShadowMap(WlkContext context, WlkShadowMap map, WlkShadowM
     if (from.lastFrame == 0) {
       return WLK_NOT_READY;
     }
-    harvestShadowMap(*c.device, from, c.completedFrame);
+    if (!c.deviceLost) {
+      harvestShadowMap(*c.device, from, c.completedFrame);
+    }
     WlkShadowMapState value = from.last;
     value.sType = state->sType;
     value.structSize = state->structSize;

@@ -256,7 +256,7 @@ WlkResult wlkGetFrameStats(WlkContext context, WlkView view, WlkFrameStats* stat
     if (state.lastFrame == 0) {
       return WLK_NOT_READY;
     }
-    harvest(*c.device, state, c.completedFrame);
+    c.harvest(state);
     WlkFrameStats value = state.record.stats;
     value.sType = stats->sType;
     value.structSize = stats->structSize;

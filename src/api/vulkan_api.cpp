@@ -229,6 +229,7 @@ WlkResult wlkVulkanSetVolumeImage(WlkContext context, WlkVolume volume, uint32_t
       fail(WLK_ERROR_WRONG_STATE, 0, "context",
            "wlkVulkanSetVolumeImage needs an engine-device context");
     }
+    c.requireDevice("wlkVulkanSetVolumeImage");
     checkRange(WLK_STRUCT_VULKAN_IMAGE, "field", field, 0, state.fieldCount - 1);
     if (image == nullptr) {
       keepImage(c, state, state.fields[field], std::nullopt);
@@ -259,7 +260,11 @@ WlkResult wlkVulkanSetVolumeImage(WlkContext context, WlkVolume volume, uint32_t
 WlkResult wlkVulkanForgetImage(WlkContext context, VkImage image) {
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
-    vk::Device& device = c.requireDevice("wlkVulkanForgetImage");
+    // Like all that destroys, of a lost device as well.
+    if (!c.device) {
+      fail(WLK_ERROR_WRONG_STATE, 0, "context", "wlkVulkanForgetImage needs a device");
+    }
+    vk::Device& device = *c.device;
     for (uint32_t i = 0; i < c.volumes.slotCount(); ++i) {
       if (VolumeState* volume = c.volumes.at(i)) {
         for (FieldState& field : volume->fields) {

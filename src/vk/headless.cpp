@@ -111,6 +111,9 @@ void Headless::createInstance(const HeadlessOptions& options) {
     fail(WLK_ERROR_NO_DEVICE, WLK_STRUCT_HEADLESS_INFO, "flags", "the layer %s is not installed",
          VALIDATION_LAYER);
   }
+  if (result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY) {
+    check(result, "vkCreateInstance");
+  }
   if (result < 0) {
     fail(WLK_ERROR_NO_DEVICE, WLK_STRUCT_HEADLESS_INFO, "vkCreateInstance",
          "vkCreateInstance returned VkResult %d", static_cast<int>(result));
@@ -218,6 +221,7 @@ void Headless::attach(const Device& device) {
 }
 
 VkCommandBuffer Headless::begin() {
+  finish();
   const Dispatch& vk = vk_;
   check(vk.ResetCommandPool(handle_, pool_, 0), "vkResetCommandPool");
   VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
@@ -227,14 +231,40 @@ VkCommandBuffer Headless::begin() {
 }
 
 void Headless::submitAndWait() {
+  if (const VkResult result = vk_.EndCommandBuffer(commands_); result < 0) {
+    Failure failure;
+    failure.result = WLK_ERROR_DEVICE_LOST;
+    failure.vkResult = result;
+    std::snprintf(failure.field, sizeof failure.field, "vkEndCommandBuffer");
+    std::snprintf(failure.message, sizeof failure.message,
+                  "vkEndCommandBuffer returned VkResult %d: the recorded uploads are gone",
+                  static_cast<int>(result));
+    throw failure;
+  }
+  pending_ = Pending::ENDED;
+  finish();
+}
+
+void Headless::finish() {
   const Dispatch& vk = vk_;
-  check(vk.EndCommandBuffer(commands_), "vkEndCommandBuffer");
-  check(vk.ResetFences(handle_, 1, &fence_), "vkResetFences");
-  VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
-  submit.commandBufferCount = 1;
-  submit.pCommandBuffers = &commands_;
-  check(vk.QueueSubmit(queue_, 1, &submit, fence_), "vkQueueSubmit");
-  check(vk.WaitForFences(handle_, 1, &fence_, VK_TRUE, UINT64_MAX), "vkWaitForFences");
+  if (pending_ == Pending::ENDED) {
+    check(vk.ResetFences(handle_, 1, &fence_), "vkResetFences");
+    VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &commands_;
+    check(vk.QueueSubmit(queue_, 1, &submit, fence_), "vkQueueSubmit");
+    pending_ = Pending::SUBMITTED;
+  }
+  if (pending_ == Pending::SUBMITTED) {
+    check(vk.WaitForFences(handle_, 1, &fence_, VK_TRUE, UINT64_MAX), "vkWaitForFences");
+    pending_ = Pending::NOTHING;
+  }
+}
+
+void Headless::settle() noexcept {
+  if (pending_ == Pending::SUBMITTED) {
+    (void)vk_.DeviceWaitIdle(handle_);
+  }
 }
 
 void Headless::destroy() {

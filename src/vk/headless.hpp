@@ -26,14 +26,20 @@ class Headless {
   DeviceInfo deviceInfo() const;
   // Makes queue and command buffer; call once, with the device made from deviceInfo().
   void attach(const Device& device);
+  // Commands that an earlier submitAndWait() could not bring to their end go first.
   VkCommandBuffer begin();
+  // What fails for want of memory comes with the next begin(). Commands that cannot be ended are
+  // gone, with uploads that nothing makes again: that is a lost device.
   void submitAndWait();
+  // Before anything is destroyed: waits for commands that nobody has waited for.
+  void settle() noexcept;
 
  private:
   void createInstance(const HeadlessOptions& options);
   void pickDevice(const HeadlessOptions& options);
   void createDevice();
   void destroy();
+  void finish();
   template <typename Function>
   Function load(const char* name) const;
 
@@ -51,6 +57,7 @@ class Headless {
   VkCommandPool pool_ = VK_NULL_HANDLE;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   VkFence fence_ = VK_NULL_HANDLE;
+  enum class Pending { NOTHING, ENDED, SUBMITTED } pending_ = Pending::NOTHING;
 };
 
 }  // namespace welkin::vk

@@ -18,7 +18,15 @@ class CountingAllocator {
 
   WlkAllocator callbacks() { return {this, allocate, release}; }
   // Fails the n-th allocation from now on, counted from 0, and every one after it.
-  void failFrom(uint64_t n) { failAt_ = n == NEVER ? NEVER : calls_ + n; }
+  void failFrom(uint64_t n) {
+    failAt_ = n == NEVER ? NEVER : calls_ + n;
+    once_ = false;
+  }
+  // Fails the n-th alone.
+  void failOnce(uint64_t n) {
+    failFrom(n);
+    once_ = true;
+  }
   uint64_t calls() const { return calls_; }
   size_t live() const { return blocks_.size(); }
 
@@ -33,7 +41,8 @@ class CountingAllocator {
     const std::lock_guard lock(self.mutex_);
     EXPECT_GT(size, 0u);
     EXPECT_EQ(alignment & (alignment - 1), 0u) << "alignment " << alignment;
-    if (self.calls_++ >= self.failAt_) {
+    const uint64_t n = self.calls_++;
+    if (self.once_ ? n == self.failAt_ : n >= self.failAt_) {
       return nullptr;
     }
     // Exactly the alignment asked for, and not the next: what needs more shows.
@@ -63,6 +72,7 @@ class CountingAllocator {
   std::unordered_map<void*, unsigned char*> places_;
   uint64_t calls_ = 0;
   uint64_t failAt_ = NEVER;
+  bool once_ = false;
 };
 
 }  // namespace welkin::test

@@ -8,29 +8,13 @@
 #include <thread>
 
 #include "stress/abuse.hpp"
+#include "stress/in_threads.hpp"
+#include "support/surface_scene.hpp"
 
 namespace welkin::test {
 namespace {
 
 constexpr size_t THREADS = 4;
-
-// Runs work(0) to work(count - 1), each in a thread, and waits. All begin at once.
-void inThreads(size_t count, const std::function<void(size_t)>& work) {
-  std::atomic<size_t> waiting{count};
-  std::vector<std::thread> threads;
-  for (size_t i = 0; i < count; ++i) {
-    threads.emplace_back([&, i] {
-      --waiting;
-      while (waiting.load() > 0) {
-        std::this_thread::yield();
-      }
-      work(i);
-    });
-  }
-  for (std::thread& thread : threads) {
-    thread.join();
-  }
-}
 
 // Functions of class [F], whose last error is the thread's own. True if all is as documented.
 bool freeFunctionsHold(size_t thread) {
@@ -114,7 +98,7 @@ TEST(Threads, ContextsOfTheirOwnAnswerAsAlone) {
   }
 }
 
-// Two views of one scene, drawn one after the other, twice.
+// Two views of one scene with a cloud surface that grows, drawn one after the other, twice.
 std::vector<Image> pictures(size_t seed) {
   SceneOptions options;
   options.width = 16;
@@ -125,11 +109,14 @@ std::vector<Image> pictures(size_t seed) {
   scene.setFog(2e-4f, 300.0f);
   scene.setSun(30.0 + 10.0 * static_cast<double>(seed), 40);
   scene.addBall(0.005f);
+  const WlkSurface surface = addSurface(scene, support::boxMesh(), scene.addHenyeyGreenstein(0.7f),
+                                        0.01f, {100, 100, 100}, {300, 400, -1500});
   scene.setCamera({0, 2, 0}, 0, 12);
   const WlkView first = scene.view;
   const WlkView second = scene.addView(options);
   std::vector<Image> all;
   for (int frame = 0; frame < 2; ++frame) {
+    setScaledPositions(scene, surface, support::boxMesh(), 1.0f + 0.1f * static_cast<float>(frame));
     for (const WlkView view : {first, second}) {
       scene.view = view;
       all.push_back(scene.render());

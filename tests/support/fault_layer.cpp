@@ -18,22 +18,26 @@ namespace {
   X(AllocateMemory) X(CreateBuffer) X(CreateImage) X(CreateImageView) X(CreateSampler)          \
   X(CreateShaderModule) X(CreateDescriptorSetLayout) X(CreatePipelineLayout)                    \
   X(CreateComputePipelines) X(CreateGraphicsPipelines) X(CreateDescriptorPool)                  \
-  X(CreateQueryPool) X(AllocateDescriptorSets) X(MapMemory) X(BindBufferMemory)                 \
-  X(BindImageMemory) X(GetQueryPoolResults)
+  X(CreateQueryPool) X(CreateCommandPool) X(CreateFence)                                        \
+  X(AllocateDescriptorSets) X(MapMemory) X(BindBufferMemory) X(BindImageMemory)                 \
+  X(GetQueryPoolResults) X(AllocateCommandBuffers) X(BeginCommandBuffer) X(EndCommandBuffer)    \
+  X(ResetCommandPool) X(ResetFences) X(QueueSubmit) X(WaitForFences) X(DeviceWaitIdle)
 #define WELKIN_UNDOING(X)                                                                       \
   X(FreeMemory, AllocateMemory) X(DestroyBuffer, CreateBuffer) X(DestroyImage, CreateImage)     \
   X(DestroyImageView, CreateImageView) X(DestroySampler, CreateSampler)                         \
   X(DestroyShaderModule, CreateShaderModule)                                                    \
   X(DestroyDescriptorSetLayout, CreateDescriptorSetLayout)                                      \
   X(DestroyPipelineLayout, CreatePipelineLayout) X(DestroyPipeline, CreateComputePipelines)     \
-  X(DestroyDescriptorPool, CreateDescriptorPool) X(DestroyQueryPool, CreateQueryPool)
+  X(DestroyDescriptorPool, CreateDescriptorPool) X(DestroyQueryPool, CreateQueryPool)           \
+  X(DestroyCommandPool, CreateCommandPool) X(DestroyFence, CreateFence)
 #define WELKIN_REST(X)                                                                          \
-  X(UpdateDescriptorSets) X(CmdPipelineBarrier2) X(CmdCopyBufferToImage)                        \
+  X(UpdateDescriptorSets) X(CmdPipelineBarrier2) X(CmdCopyBufferToImage) X(CmdCopyBuffer)       \
   X(CmdCopyImageToBuffer) X(CmdFillBuffer) X(CmdBindPipeline) X(CmdBindDescriptorSets)          \
   X(CmdPushConstants) X(CmdDispatch) X(CmdDispatchIndirect) X(CmdResetQueryPool)                \
   X(CmdWriteTimestamp2)                                                                         \
   X(CmdBeginRendering) X(CmdEndRendering) X(CmdSetViewport) X(CmdSetScissor) X(CmdDraw)         \
-  X(CmdClearColorImage)
+  X(CmdClearColorImage) X(GetBufferMemoryRequirements) X(GetImageMemoryRequirements)            \
+  X(GetDeviceQueue)
 // clang-format on
 
 enum Call {
@@ -48,12 +52,15 @@ struct Layer {
   std::array<int64_t, CALL_COUNT> live{};
   uint64_t calls = 0;
   uint64_t any = 0;
+  uint64_t undone = 0;
   uint64_t at = FaultLayer::NEVER;
   bool forever = false;
   bool hollow = false;
   uint64_t hollowHandles = 0;
   VkResult code = VK_SUCCESS;
   const char* failed = "";
+  std::set<std::string> unknown;
+  std::map<std::string, int64_t> instanceObjects;
 };
 Layer layer;
 
@@ -74,7 +81,7 @@ constexpr bool needsPipeline(Call call) {
   return call == CALL_CreateShaderModule || call == CALL_DestroyShaderModule ||
          call == CALL_CreateComputePipelines || call == CALL_CreateGraphicsPipelines ||
          call == CALL_DestroyPipeline || call == CALL_CmdBindPipeline || call == CALL_CmdDispatch ||
-         call == CALL_CmdDraw;
+         call == CALL_CmdDispatchIndirect || call == CALL_CmdDraw;
 }
 
 template <Call WHICH>
@@ -114,6 +121,7 @@ struct Wrapper<Result(VKAPI_PTR*)(Arguments...)> {
   template <Call WHICH, Call UNDONE>
   static VKAPI_ATTR void VKAPI_CALL undoing(Arguments... arguments) {
     ++layer.any;
+    ++layer.undone;
     const bool given = [](VkDevice, auto handle, const VkAllocationCallbacks*) {
       return handle != VK_NULL_HANDLE;
     }(arguments...);
@@ -166,15 +174,23 @@ const std::array<Replacement, CALL_COUNT>& replacements() {
   return table;
 }
 
-VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceProc(VkDevice device, const char* name) {
-  PFN_vkVoidFunction real = vkGetDeviceProcAddr(device, name);
+PFN_vkVoidFunction replaced(const char* name, PFN_vkVoidFunction real) {
   for (size_t i = 0; i < replacements().size(); ++i) {
     if (std::strcmp(replacements()[i].name, name) == 0) {
       layer.real[i] = real;
       return replacements()[i].function;
     }
   }
-  return real;
+  return nullptr;
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceProc(VkDevice device, const char* name) {
+  PFN_vkVoidFunction real = vkGetDeviceProcAddr(device, name);
+  PFN_vkVoidFunction ours = replaced(name, real);
+  if (ours == nullptr) {
+    layer.unknown.insert(name);
+  }
+  return ours != nullptr ? ours : real;
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instanceProc(VkInstance instance, const char* name) {
@@ -189,9 +205,28 @@ PFN_vkGetInstanceProcAddr FaultLayer::getInstanceProcAddr() {
   return &instanceProc;
 }
 
+PFN_vkVoidFunction FaultLayer::replace(const char* name, PFN_vkVoidFunction real) {
+  PFN_vkVoidFunction ours = replaced(name, real);
+  return ours != nullptr ? ours : real;
+}
+
+VkResult FaultLayer::enter(const char* name) {
+  ++layer.any;
+  if (failsNow()) {
+    layer.failed = name;
+    return layer.code;
+  }
+  return VK_SUCCESS;
+}
+
+void FaultLayer::count(const char* kind, int64_t change) {
+  layer.instanceObjects[kind] += change;
+}
+
 void FaultLayer::failAt(uint64_t k, VkResult code, bool forever) {
   layer.calls = 0;
   layer.any = 0;
+  layer.undone = 0;
   layer.at = k;
   layer.code = code;
   layer.forever = forever;
@@ -210,6 +245,14 @@ uint64_t FaultLayer::anyCalls() {
   return layer.any;
 }
 
+uint64_t FaultLayer::destructions() {
+  return layer.undone;
+}
+
+const std::set<std::string>& FaultLayer::unknown() {
+  return layer.unknown;
+}
+
 const char* FaultLayer::failed() {
   return layer.failed;
 }
@@ -222,6 +265,11 @@ std::map<std::string, int64_t> FaultLayer::live() {
   }
   WELKIN_FALLIBLE(WELKIN_LEFT)
 #undef WELKIN_LEFT
+  for (const auto& [kind, count] : layer.instanceObjects) {
+    if (count != 0) {
+      left[kind] = count;
+    }
+  }
   return left;
 }
 

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 
 namespace welkin::test {
@@ -17,6 +18,11 @@ class FaultLayer {
 
   // What the library gets instead of the loader's.
   static PFN_vkGetInstanceProcAddr getInstanceProcAddr();
+  // For a layer that the loader puts under a device: what it hands out for `real`.
+  static PFN_vkVoidFunction replace(const char* name, PFN_vkVoidFunction real);
+  // For calls of such a layer's own: counts one that can fail, and tells its result.
+  static VkResult enter(const char* name);
+  static void count(const char* kind, int64_t change);
   // The k-th call from now on, from 0, that returns a VkResult returns `code` instead, and is not
   // made; with `forever` all after it as well.
   static void failAt(uint64_t k, VkResult code, bool forever);
@@ -27,6 +33,10 @@ class FaultLayer {
   static uint64_t calls();
   // All calls of device functions since then, those that return nothing included.
   static uint64_t anyCalls();
+  // Of these, those that destroy or free.
+  static uint64_t destructions();
+  // Device functions that were asked for and are handed out uncounted. There should be none.
+  static const std::set<std::string>& unknown();
   // The call that failed last, "" if none did.
   static const char* failed();
   // Objects created and not destroyed, by the function that creates them.
