@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // welkin_surface_search TRUTH-FOLDER: the search for collectors of [B08] 6.1, which the library
-// does not need, over the light maps of spheres and of the cumulus, as CSV on standard output:
-// docs/results/surface-search.csv. `plain` is the iteration as printed, its steps at most a width
-// long; `damped` goes half the way (collectorStep). Searches, of eight sets in each pixel, and
-// pixels, all of whose eight do, count as converged if the next step after ten would be shorter
-// than TOLERANCE widths. `lost`: searches that left the map's cloud. `light`, `rms`: what the
-// damped search sees scattered more than once, ratio of totals and rms of the difference, against
-// the shipped rule's for spheres and against Monte Carlo for the cumulus.
+// does not need, over light maps of a slab, of spheres and of the clouds of surface_views.hpp, as
+// CSV on standard output: docs/results/surface-search.csv. `plain` is the iteration as printed, its
+// steps at most a width long; `damped` goes half the way (collectorStep). Searches, of eight sets
+// in each pixel, and pixels, all of whose eight do, count as converged if the next step after ten
+// would be shorter than TOLERANCE widths. `lost`: searches that left the map's cloud. `light`,
+// `rms`: what the damped search sees scattered more than once, ratio of totals and rms of the
+// difference, against the shipped rule's for slab and spheres, against Monte Carlo for the clouds.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -168,9 +168,15 @@ double searchPixel(const CanonicalTable& table, const LightMap& map, const Point
   return light;
 }
 
-void searchSphere(const CanonicalTable& table, const SurfaceSource& source, const std::string& name,
-                  int angle) {
-  const rt::Body body = rt::makeBody(name);
+// "slab", 20 deep and 20 times as wide: where the search must find the slab's own light.
+rt::Body bodyOf(const std::string& name) {
+  return name == "slab" ? rt::Body{{{true, {0, 0, 0}, {200, 200, 10}, 0}}, 210}
+                        : rt::makeBody(name);
+}
+
+void searchBody(const CanonicalTable& table, const SurfaceSource& source, const std::string& name,
+                int angle) {
+  const rt::Body body = bodyOf(name);
   const Shape shape = [&](const Point& origin, const Point& direction, Hit& hit) {
     const std::vector<rt::Stretch> inside = body.inside(origin, direction);
     if (!inside.empty()) {
@@ -270,8 +276,11 @@ int main(int argc, char** argv) {
         "damped_lost,light,rms\n");
     for (const char* name : {"sphere-2", "sphere-10", "sphere-30"}) {
       for (const int angle : {180, 120, 90, 60, 20}) {
-        searchSphere(table, source, name, angle);
+        searchBody(table, source, name, angle);
       }
+    }
+    for (const int angle : {180, 120, 60, 20}) {
+      searchBody(table, source, "slab", angle);
     }
     for (const bench::SurfaceView& view : bench::surfaceViews()) {
       searchCloud(table, view, argv[1]);
