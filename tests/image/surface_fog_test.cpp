@@ -73,8 +73,8 @@ TEST(SurfaceBehindFog, IsDimmedByTheFogBeforeIt) {
   }
   std::printf("%d pixels, light %.5f, transmittance %.5f\n", covered, worst, worstPassing);
   EXPECT_GT(covered, 60);
-  EXPECT_LT(worst, 0.01);
-  EXPECT_LT(worstPassing, 0.003);
+  EXPECT_LT(worst, 2e-3);
+  EXPECT_LT(worstPassing, 1e-3);
   for (const std::string& message : scene.messages()) {
     ADD_FAILURE() << message;
   }

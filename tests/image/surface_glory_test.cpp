@@ -14,7 +14,7 @@ namespace {
 
 constexpr double DEGREE = std::numbers::pi / 180;
 constexpr double BIN = 0.25;  // degrees
-constexpr double MOST = 45;
+constexpr double MOST = 43;
 constexpr double SUN = 40;  // degrees over the horizon, behind the eye
 
 // Heights of the unit sheet's upper face over its lower one, some bumps wide.
