@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Light scattered at least twice that a surface cloud sends to the eye, from light maps and the
-// source's image: the rule of model/surface with its fetches, two of the maps and four of the
+// source's image: the rule of model/surface with its fetches, two of the maps and one of the
 // source per set. Needs model.glsl. Vectors are in the light's frame, z towards the light.
 //
 // columns: coverage, through (m), x and y of the lit face's normal; faces: z of that normal, x and
 // y of the shaded face's, depth of the lit face along the light (m); both with mipmaps of means
 // over all of a texel, filtered linearly in place and level, transparent black beyond their border.
-// source, curves: values and logPhase of src/tables/surface_source, 3-D and 181 x 8, filtered
+// source, curves: SurfaceSourceImage of src/tables/surface_source, 3-D and 181 x 2, filtered
 // linearly, clamped to their edge.
 
 struct SurfaceMap {
@@ -33,21 +33,15 @@ LightFootprint surfaceFootprint(sampler2D columns, sampler2D faces, SurfaceMap m
 }
 
 float surfaceLogSource(sampler3D source, int set, SourcePlace at) {
-  float views = float(SOURCE_VIEWS);
-  float view = min(floor(at.view), views - 2.0);
+  float views = float(SOURCE_VIEWS - 1);
+  float view = min(floor(at.view), views - 1.0);
   float azimuth = min(floor(at.azimuth), float(SOURCE_AZIMUTHS) - 2.0);
   vec3 corner = at.node + 0.5;
   corner.x += (view + (at.up ? views : 0.0)) * float(SOURCE_DEPTHS);
   corner.y += azimuth * float(SOURCE_THICKNESSES);
   corner.z += float(set * SOURCE_LIGHTS);
-  vec3 scale = 1.0 / vec3(SOURCE_SIZE);
-  vec3 toView = vec3(float(SOURCE_DEPTHS), 0.0, 0.0);
-  vec3 toAzimuth = vec3(0.0, float(SOURCE_THICKNESSES), 0.0);
-  vec2 near = vec2(textureLod(source, corner * scale, 0.0).x,
-                   textureLod(source, (corner + toView) * scale, 0.0).x);
-  vec2 far = vec2(textureLod(source, (corner + toAzimuth) * scale, 0.0).x,
-                  textureLod(source, (corner + toView + toAzimuth) * scale, 0.0).x);
-  vec2 both = mix(near, far, at.azimuth - azimuth);
+  vec4 nodes = textureLod(source, corner / vec3(SOURCE_SIZE), 0.0);
+  vec2 both = mix(nodes.xy, nodes.zw, at.azimuth - azimuth);
   return mix(both.x, both.y, at.view - view) + at.outside;
 }
 
@@ -69,6 +63,9 @@ vec3 surfaceScattered(sampler2D columns, sampler2D faces, sampler3D source, samp
   TangentSlab local = tangentSlab(across, depthInSlab(across, share, through),
                                   directionOr(some.lit, TO_LIGHT), TO_LIGHT, toEye);
   float angle = slabAngle(-toEye.z, length(toEye.xy)) * 0.3183098861837907;
+  float turn = (angle * 180.0 + 0.5) / 181.0;
+  vec4 few = textureLod(curves, vec2(turn, 0.25), 0.0);
+  vec4 many = textureLod(curves, vec2(turn, 0.75), 0.0);
   vec3 sum = vec3(0.0);
   for (int set = 0; set < SURFACE_SETS; ++set) {
     float spread = footprintSpread(set, local) / max(map.extinction, 1e-20);
@@ -77,8 +74,7 @@ vec3 surfaceScattered(sampler2D columns, sampler2D faces, sampler3D source, samp
                          depth - shade);
     SurfaceSlab found = surfaceSlab(set, around, share, through, TO_LIGHT, toEye);
     SourcePlace at = sourcePlace(set, found.slab);
-    float logPhase =
-        textureLod(curves, vec2((angle * 180.0 + 0.5) / 181.0, (float(set) + 0.5) / 8.0), 0.0).x;
+    float logPhase = set < 4 ? few[set] : many[set - 4];
     sum += left[set].xyz * sourceRadiance(surfaceLogSource(source, set, at), logPhase,
                                           found.slab.muLight, found.inside);
   }

@@ -35,15 +35,15 @@ vec3 normalOf(uint triangle) {
   return directionOr(cross(p[1] - p[0], p[2] - p[0]), vec3(0.0f));
 }
 
-// Metres of cloud that detail leaves on a texel's way.
-float eaten(Inside inside, vec2 place) {
+// Along a texel's way.
+ShellRay shellRay(vec2 place) {
   vec4 origin = vec4(place, 0.0f, 1.0f);
   ShellRay ray;
   ray.origin =
       vec3(dot(surface.cellX, origin), dot(surface.cellY, origin), dot(surface.cellZ, origin));
   ray.slope = vec3(surface.cellX.z, surface.cellY.z, surface.cellZ.z);
   ray.width = surface.detail.w;
-  return shellMarch(inside, ray, 0.0f, 0.0f).filled;
+  return ray;
 }
 
 MapTexel fromTriangles(uvec2 texel, uint size) {
@@ -68,7 +68,13 @@ MapTexel fromTriangles(uvec2 texel, uint size) {
     inside.chord = float(cover.chord) * metre;
     float through = inside.chord;
     if (surface.detail.x > 0.0f) {
-      through = eaten(inside, (vec2(texel) + 0.5f) / float(size));
+      ShellRay ray = shellRay((vec2(texel) + 0.5f) / float(size));
+#ifdef SHELL_NOISE_COMPUTED
+      inside = shellLit(inside, ray);
+      through = inside.chord;
+#else
+      through = shellMarch(inside, ray, 0.0f, 0.0f).filled;
+#endif
     }
     if (through > 0.0f) {
       result.column = vec4(1.0f, through, near.xy);

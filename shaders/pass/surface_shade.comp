@@ -237,6 +237,14 @@ void main() {
     vec3 sum = vec3(0.0f);
     vec3 smooth_ = LIGHT_ENABLED ? phaseAt(0u, direction) : vec3(0.0f);
     vec3 peak = LIGHT_ENABLED ? phaseAt(1u, direction) : vec3(0.0f);
+    // Stretches of equal opacity of what detail leaves; in [B08] of the whole chord.
+#ifdef SHELL_NOISE_COMPUTED
+    float cut = surface.optics.y * inside.chord;
+    float first_ = 0.0f;
+#else
+    float cut = tau;
+    float first_ = march.lost;
+#endif
     float begin = 0.0f;
     ChordLight whole = emptyChord();
     float depth = surface.optics.z * march.filled;
@@ -256,13 +264,20 @@ void main() {
       shadeNear -= lost.x;
     }
     for (int i = 1; i <= STRETCHES; ++i) {
-      float end = chordDepth(float(i) / float(STRETCHES), tau) / max(surface.optics.y, 1.0e-20f);
+      float end = chordDepth(float(i) / float(STRETCHES), cut) / max(surface.optics.y, 1.0e-20f);
       float length_ = max(end - begin, 0.0f);
-      AirAt air = airAt(nodes, pointAt(inside, march.lost + begin + 0.5f * length_));
+      AirAt air = airAt(nodes, pointAt(inside, first_ + begin + 0.5f * length_));
+#ifdef SHELL_NOISE_COMPUTED
+      if (surface.detail.x > 0.0f) {
+        length_ = shellStretch(inside, shell, begin, length_);
+      }
+      float passed = through * exp(-surface.optics.y * length_);
+#else
       float passed = exp(-min(surface.optics.y * end, EXP_CUT));
+#endif
       if (LIGHT_ENABLED) {
         float taken = mix(lost.x, lost.y, min(end / max(sample_, 1.0e-20f), 1.0f));
-        float shadeFar = max(shadeAt(pointAt(inside, march.lost + end) * direction) - taken, 0.0f);
+        float shadeFar = max(shadeAt(pointAt(inside, first_ + end) * direction) - taken, 0.0f);
         float once = through * segmentInscatter(surface.optics.y * shadeNear,
                                                 surface.optics.y * shadeFar,
                                                 surface.optics.y * length_);
@@ -275,12 +290,15 @@ void main() {
       }
       sum += air.radiance * (through - passed);
       if (DISTANCE) {
-        float middle = pointAt(inside, march.lost + begin + 0.5f * length_);
+        float middle = pointAt(inside, first_ + begin + 0.5f * length_);
         hidden += (through - passed) * vec2(middle, 1.0f);
       }
       through = passed;
       begin = end;
     }
+#ifdef SHELL_NOISE_COMPUTED
+    through = exp(-min(tau, EXP_CUT));
+#endif
     if (LIGHT_ENABLED || AMBIENT) {
       vec3 p = distance_ * direction;
       AirAt air = airAt(nodes, distance_);

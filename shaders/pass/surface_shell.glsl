@@ -28,12 +28,16 @@ struct ShellMarch {
   float lost;    // that it takes in front of the point whose light stands for all
 };
 
-// From where a ray comes in, and before where it leaves for good if what is between is longer.
+// In depths of the detail.
+float shellDepthAt(vec3 place) {
+  return (textureLod(shellField, place, 0.0f).x - SHELL_OUTSIDE) * surface.detailShift.w;
+}
+
 #ifdef SHELL_NOISE_COMPUTED
-const int SHELL_STEPS = 512;
+#include "computed_shell.glsl"
 #else
+// From where a ray comes in, and before where it leaves for good if what is between is longer.
 const int SHELL_STEPS = 28;
-#endif
 const int SHELL_STEPS_BACK = 6;
 const float SHELL_FINEST = 1.0f / 6.0f;  // steps in depths of the detail
 const float SHELL_COARSEST = 1.0f / 3.0f;
@@ -46,23 +50,9 @@ float shellLevel(float metres) {
   return log2(max(metres * surface.detailScale.w, 1.0f));
 }
 
-#ifdef SHELL_NOISE_COMPUTED
-#include "computed_noise.glsl"
-#endif
-
-// In depths of the detail.
-float shellDepthAt(vec3 place) {
-  return (textureLod(shellField, place, 0.0f).x - SHELL_OUTSIDE) * surface.detailShift.w;
-}
-
 float shellDensityAt(float depth, vec3 place, float level) {
   vec3 at = place * surface.detailScale.xyz + surface.detailShift.xyz;
-#ifdef SHELL_NOISE_COMPUTED
-  float noise = computedNoise(at);
-#else
-  float noise = textureLod(shellNoise, at, level).x;
-#endif
-  return shellDensity(depth, noise, surface.detail.z);
+  return shellDensity(depth, textureLod(shellNoise, at, level).x, surface.detail.z);
 }
 
 // `seen`: metres of core that end at that point where there are as many; in thinner cloud `lost` is
@@ -71,9 +61,6 @@ ShellMarch shellMarch(Inside inside, ShellRay ray, float extinction, float seen)
   float shell = surface.detail.x;
   float base = clamp(inside.chord / float(SHELL_STEPS), SHELL_FINEST * shell,
                      SHELL_COARSEST * shell);
-#ifdef SHELL_NOISE_COMPUTED
-  base = voxelOf(surface);
-#endif
   float level = shellLevel(max(base, ray.width));
   ShellMarch march;
   march.filled = 0.0f;
@@ -126,3 +113,4 @@ float shellShadeLost(ShellRay ray, float shade) {
   float beyond = clamp(shade / shell - SHELL_SHADE, 0.0f, 1.0f);
   return min(lost * width + 0.5f * shell * beyond, shade);
 }
+#endif

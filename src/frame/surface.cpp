@@ -140,20 +140,22 @@ SurfaceTables makeSurfaceTables(vk::Device& device) {
     std::memcpy(buffer.data(), values.data(), values.size() * sizeof(float));
     return buffer;
   };
-  made.newSource = stage(source.values);
-  made.newCurves = stage(source.logPhase);
+  const SurfaceSourceImage image = surfaceSourceImage(source);
+  made.newSource = stage(image.values);
+  made.newCurves = stage(image.logPhase);
   const SurfaceAmbient ambient = surfaceAmbient(source, table.asymmetry);
   made.newShare = stage(ambient.share);
   vk::ImageInfo info;
   info.format = VK_FORMAT_R32_SFLOAT;
   info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-  info.extent = {CANONICAL_ANGLES, CANONICAL_SETS, 1};
-  made.curves = vk::Image(device, info);
   info.extent = {static_cast<uint32_t>(ambient.size[0]), static_cast<uint32_t>(ambient.size[1]), 1};
   made.share = vk::Image(device, info);
+  info.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+  info.extent = {CANONICAL_ANGLES, CANONICAL_SETS / 4, 1};
+  made.curves = vk::Image(device, info);
   info.type = VK_IMAGE_TYPE_3D;
-  info.extent = {static_cast<uint32_t>(source.size[0]), static_cast<uint32_t>(source.size[1]),
-                 static_cast<uint32_t>(source.size[2])};
+  info.extent = {static_cast<uint32_t>(image.size[0]), static_cast<uint32_t>(image.size[1]),
+                 static_cast<uint32_t>(image.size[2])};
   made.source = vk::Image(device, info);
   return made;
 }

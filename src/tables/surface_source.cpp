@@ -164,6 +164,30 @@ SurfaceSource surfaceSource(const CanonicalTable& table) {
   return source;
 }
 
+SurfaceSourceImage surfaceSourceImage(const SurfaceSource& source) {
+  SurfaceSourceImage image;
+  image.size = {static_cast<size_t>(SOURCE_SIZE.x), static_cast<size_t>(SOURCE_SIZE.y),
+                static_cast<size_t>(SOURCE_SIZE.z)};
+  image.values.reserve(4 * image.size[0] * image.size[1] * image.size[2]);
+  for (size_t i = 0; i < image.size[0] * image.size[1] * image.size[2]; ++i) {
+    const size_t x = i % image.size[0];
+    const size_t y = i / image.size[0] % image.size[1];
+    const size_t z = i / image.size[0] / image.size[1];
+    const size_t side = x / DEPTHS;  // views of the lower hemisphere, then of the upper one
+    const size_t view = side + side / (VIEWS - 1);
+    for (size_t k = 0; k < 4; ++k) {
+      const size_t row = placeOf(source.size, z / LIGHTS, view + k % 2, y / THICKNESSES + k / 2,
+                                 y % THICKNESSES, z % LIGHTS);
+      image.values.push_back(source.values[row + x % DEPTHS]);
+    }
+  }
+  for (size_t i = 0; i < source.logPhase.size(); ++i) {
+    const size_t set = i / (4 * CANONICAL_ANGLES) * 4 + i % 4;
+    image.logPhase.push_back(source.logPhase[set * CANONICAL_ANGLES + i / 4 % CANONICAL_ANGLES]);
+  }
+  return image;
+}
+
 double surfaceSourceAt(const SurfaceSource& source, size_t set, const SurfaceSlabPoint& point) {
   const TangentSlab slab = {point.thickness, point.depth, point.muLight, point.muView, point.phi};
   const SourcePlace place = sourcePlace(static_cast<int>(set), slab);

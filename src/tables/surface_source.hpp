@@ -18,6 +18,14 @@ struct SurfaceSource {
   std::vector<float> logPhase;   // [set][angle], at 0, 1, .. 180 degrees
 };
 
+// As a device reads it, four numbers to a texel: model/surface/source.glsl.
+struct SurfaceSourceImage {
+  std::array<size_t, 3> size{};
+  std::vector<float> values;
+  std::vector<float> logPhase;  // 181 x 2: four sets to a texel
+};
+SurfaceSourceImage surfaceSourceImage(const SurfaceSource& source);
+
 // Differs from what the table's own cubics give by what docs/models.md says.
 SurfaceSource surfaceSource(const CanonicalTable& table);
 

@@ -111,14 +111,13 @@ double cumulusAt(const Vec3& p) {
   return -BLEND / 4 * std::log(std::exp(-4 * inside / BLEND) + std::exp(-4 * above / BLEND));
 }
 
-// Each cube in six tetrahedra around its diagonal; triangles face outwards.
-BodyMesh cumulus() {
-  constexpr uint32_t N = 64;
-  constexpr double CELL = 28;  // m
+// Cubes of `cellEdge` m, each in six tetrahedra around its diagonal; triangles face outwards.
+template <uint32_t N>
+BodyMesh cumulus(double cellEdge) {
   const Vec3 low{-890, 720, -880};
   std::vector<double> field;
   const auto pointAt = [&](uint32_t i) {
-    return low + Vec3{CELL * (i % N), CELL * (i / N % N), CELL * (i / N / N)};
+    return low + Vec3{cellEdge * (i % N), cellEdge * (i / N % N), cellEdge * (i / N / N)};
   };
   for (uint32_t i = 0; i < N * N * N; ++i) {
     field.push_back(cumulusAt(pointAt(i)));
@@ -193,7 +192,10 @@ BodyMesh bodyMesh(const std::string& body) {
     return stratocumulus();
   }
   if (body == "cumulus") {
-    return cumulus();
+    return cumulus<64>(28);
+  }
+  if (body == "cumulus-coarse") {
+    return cumulus<20>(95);
   }
   throw std::invalid_argument("no body " + body);
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// welkin_surface_detail ROUNDS [RAYS]: CPU times of frames of cloud surfaces with detail and
-// without, as CSV on standard output: docs/results/surface-detail.csv. Medians of interleaved
-// rounds, all threads, ms: of a frame in which nothing changed, and of one in which the light
-// moved. RAYS: along the edge of a pixel of the truth's pictures.
+// welkin_surface_detail: times of frames of cloud surfaces with detail and without, as CSV:
+// docs/results/surface-detail.csv. Medians of interleaved rounds in ms: CPU times of all threads,
+// of a frame in which nothing changed and of one in which the light moved; and of the latter's
+// passes the time that they took.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <vector>
 
@@ -15,8 +15,6 @@
 namespace {
 
 using namespace bench;
-
-constexpr double PART = 0.05;  // depth of the detail, of the body's height
 
 double heightOf(const BodyMesh& mesh) {
   float low = mesh.positions[1];
@@ -28,55 +26,113 @@ double heightOf(const BodyMesh& mesh) {
   return static_cast<double>(high - low);
 }
 
-struct Times {
-  std::vector<double> still, moving;
-};
-
-void measure(SurfaceWorld& world, const SurfaceView& view, int rounds, uint32_t rays) {
-  const BodyMesh mesh = bodyMesh(view.body);
-  world.show(view, mesh, {false, 0, 0, WLK_QUALITY_HIGH}, rays);
-  const double depth = PART * heightOf(mesh);
-  Times plain;
-  Times detailed;
-  std::vector<double> still;
-  std::vector<double> moving;
-  int turns = 0;
-  for (int i = 0; i <= rounds; ++i) {
-    for (const bool with : {false, true}) {
-      Times& times = with ? detailed : plain;
-      world.detail(with ? depth : 0);
-      world.render();  // what the change itself asks for
-      const double unchanged = world.render();
-      world.turnLight(++turns);
-      const double turned = world.render();
-      if (i > 0) {  // the first round makes pipelines
-        times.still.push_back(unchanged);
-        times.moving.push_back(turned);
-      }
-    }
-    if (i > 0) {
-      still.push_back(detailed.still.back() / plain.still.back());
-      moving.push_back(detailed.moving.back() / plain.moving.back());
+// As [B08] 9 has its cumulus: 5000 triangles, 800 x 600 pixels.
+std::vector<SurfaceView> coarseViews() {
+  std::vector<SurfaceView> views;
+  for (SurfaceView view : surfaceViews()) {
+    if (view.body == "cumulus") {
+      view.body = "cumulus-coarse";
+      view.name = view.body + view.name.substr(view.name.find('-'));
+      view.width = 800;
+      view.height = 600;
+      views.push_back(view);
     }
   }
-  std::printf("%s,%.0f,%.0f,%.2f,%.0f,%.0f,%.2f\n", view.name.c_str(), medianOf(plain.still),
-              medianOf(detailed.still), medianOf(still), medianOf(plain.moving),
-              medianOf(detailed.moving), medianOf(moving));
+  return views;
+}
+
+struct Times {
+  std::vector<double> still, moving, light, eye;
+  void add(SurfaceWorld& world, int turns) {
+    world.render();  // what a change itself asks for
+    still.push_back(world.render());
+    world.turnLight(turns);
+    moving.push_back(world.render());
+    light.push_back(world.passTime(WLK_PASS_SURFACE_LIGHT));
+    eye.push_back(world.passTime(WLK_PASS_SURFACE));
+  }
+};
+
+double ratio(const std::vector<double>& with, const std::vector<double>& without) {
+  std::vector<double> ratios;
+  for (size_t i = 0; i < with.size(); ++i) {
+    ratios.push_back(with[i] / without[i]);
+  }
+  return medianOf(ratios);
+}
+
+struct Job {
+  std::string noise;
+  int rounds = 5;
+  uint32_t rays = 1;
+  double part = 0.05;
+};
+
+void measure(SurfaceWorld& world, const SurfaceView& view, const Job& job) {
+  const BodyMesh mesh = bodyMesh(view.body);
+  world.show(view, mesh, {false, 0, 0, WLK_QUALITY_HIGH}, job.rays);
+  const double depth = job.part * heightOf(mesh);
+  Times plain;
+  Times detailed;
+  Times warmUp;  // makes pipelines
+  int turns = 0;
+  for (int i = 0; i <= job.rounds; ++i) {
+    for (const bool with : {false, true}) {
+      world.detail(with ? depth : 0);
+      (i == 0 ? warmUp : with ? detailed : plain).add(world, ++turns);
+    }
+  }
+  std::printf("%s,%s,%zu,%u,%u,%g", job.noise.c_str(), view.name.c_str(), mesh.indices.size() / 3,
+              static_cast<uint32_t>(view.width) * job.rays,
+              static_cast<uint32_t>(view.height) * job.rays, job.part);
+  const auto print = [&](std::vector<double> Times::*of, bool withRatio) {
+    std::printf(",%.0f,%.0f", medianOf(plain.*of), medianOf(detailed.*of));
+    if (withRatio) {
+      std::printf(",%.2f", ratio(detailed.*of, plain.*of));
+    }
+  };
+  print(&Times::still, true);
+  print(&Times::moving, true);
+  print(&Times::light, false);
+  print(&Times::eye, false);
+  std::printf("\n");
   std::fflush(stdout);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int rounds = argc > 1 ? std::atoi(argv[1]) : 5;
-  const uint32_t rays = argc > 2 ? static_cast<uint32_t>(std::max(std::atoi(argv[2]), 1)) : 4;
+  CLI::App app("Times of frames of cloud surfaces with detail and without");
+  Job job;
+  std::string scene = "coarse";
+  std::vector<double> parts = {0.05, 0.1};
+  bool header = true;
+  std::vector<std::string> names;
+  job.noise = "texture";
+  app.add_option("--noise", job.noise, "first column: how the library was built");
+  app.add_option("--rounds", job.rounds, "of each view")->check(CLI::Range(1, 1000));
+  app.add_option("--scene", scene, "5000 triangles at 800 x 600, or the pictures of the truth")
+      ->check(CLI::IsMember({"coarse", "truth"}));
+  app.add_option("--rays", job.rays, "along the edge of a pixel")->check(CLI::Range(1, 64));
+  app.add_option("--depth", parts, "of the detail, parts of the body's height");
+  app.add_option("--view", names, "these only");
+  app.add_flag("!--no-header", header, "rows only");
+  CLI11_PARSE(app, argc, argv);
   try {
     SurfaceWorld world(canonicalCurve());
-    std::printf(
-        "view,still_ms,still_detail_ms,still_ratio,moving_ms,moving_detail_ms,moving_ratio\n");
-    for (const SurfaceView& view : surfaceViews()) {
-      if (view.body == "cumulus" || view.body == "stratocumulus") {
-        measure(world, view, rounds, rays);
+    if (header) {
+      std::printf(
+          "noise,view,triangles,width,height,depth,still_ms,still_detail_ms,still_ratio,"
+          "moving_ms,moving_detail_ms,moving_ratio,light_ms,light_detail_ms,eye_ms,"
+          "eye_detail_ms\n");
+    }
+    for (const SurfaceView& view : scene == "coarse" ? coarseViews() : surfaceViews()) {
+      if (!names.empty() && std::find(names.begin(), names.end(), view.name) == names.end()) {
+        continue;
+      }
+      for (const double part : parts) {
+        job.part = part;
+        measure(world, view, job);
       }
     }
   } catch (const std::exception& error) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // welkin_surface_view_errors ROUNDS [NAME...]: errors of pictures of cloud surfaces, region by
 // region, and CPU times of their frames, beside those of volumes of the same bodies, as CSV on
-// standard output: docs/results/surface-views.csv. Times are medians of all threads' in ms, of 256
+// standard output: docs/results/surface-images.csv. Times are medians of all threads' in ms, of 256
 // x 192 pixels or so: of a frame in which nothing changed, and of one in which the light moved.
 #include <cstdio>
 #include <cstdlib>

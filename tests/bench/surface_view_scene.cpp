@@ -171,6 +171,24 @@ double SurfaceWorld::render() {
   return processClock_ms() - begin;
 }
 
+double SurfaceWorld::passTime(uint32_t pass) const {
+  auto stats = host::make<WlkFrameStats>();
+  uint32_t count = 0;
+  const auto get = [&](WlkPassStats* passes) {
+    host::check(
+        wlkGetFrameStats(context_.get(), shown_, &stats, &count, sizeof(WlkPassStats), passes),
+        "wlkGetFrameStats");
+  };
+  get(nullptr);
+  std::vector<WlkPassStats> passes(count);
+  get(passes.data());
+  double time = 0;
+  for (const WlkPassStats& one : passes) {
+    time += one.pass == pass ? 1e-6 * static_cast<double>(one.gpuTime_ns) : 0;
+  }
+  return time;
+}
+
 std::vector<double> SurfaceWorld::picture() const {
   const auto width = static_cast<size_t>(view_.width);
   const auto height = static_cast<size_t>(view_.height);

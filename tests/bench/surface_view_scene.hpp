@@ -45,6 +45,8 @@ class SurfaceWorld {
   void turnLight(int steps);
   /// Gives the surface detail so deep, m, with lumps three times as large; 0 takes it away.
   void detail(double depth);
+  /// GPU time of the last frame's passes of a kind, WLK_PASS_*, ms.
+  [[nodiscard]] double passTime(uint32_t pass) const;
   /// Green of the last frame, one value per pixel of the view.
   [[nodiscard]] std::vector<double> picture() const;
 

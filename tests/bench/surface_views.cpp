@@ -27,13 +27,9 @@ Point sunAt(double elevation_deg, double azimuth_deg) {
 
 // A ray through a random point of the pixel.
 rt::MeshRay pixelRay(const SurfaceView& view, int x, int y, rt::Random& random) {
-  const Point forward = rt::normalized(rt::minus(view.target, view.eye));
-  const Point right = rt::normalized(rt::cross(forward, {0, 1, 0}));
-  const Point up = rt::cross(right, forward);
-  const double pixel = 2 * std::tan(0.5 * view.verticalFov_deg * RADIANS) / view.height;
-  const double u = (x + random.uniform() - 0.5 * view.width) * pixel;
-  const double v = (0.5 * view.height - y - random.uniform()) * pixel;
-  return {view.eye, rt::normalized(rt::along(rt::along(forward, right, u), up, v))};
+  const double u = x + random.uniform();
+  const double v = y + random.uniform();
+  return {view.eye, pixelWay(view, u, v)};
 }
 
 }  // namespace
@@ -67,6 +63,16 @@ std::vector<SurfaceView> surfaceViews() {
     }
   }
   return views;
+}
+
+Point pixelWay(const SurfaceView& view, double x, double y) {
+  const Point forward = rt::normalized(rt::minus(view.target, view.eye));
+  const Point right = rt::normalized(rt::cross(forward, {0, 1, 0}));
+  const Point up = rt::cross(right, forward);
+  const double pixel = 2 * std::tan(0.5 * view.verticalFov_deg * RADIANS) / view.height;
+  const double u = (x - 0.5 * view.width) * pixel;
+  const double v = (0.5 * view.height - y) * pixel;
+  return rt::normalized(rt::along(rt::along(forward, right, u), up, v));
 }
 
 rt::MeshBody referenceBody(const BodyMesh& mesh) {

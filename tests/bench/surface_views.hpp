@@ -31,6 +31,8 @@ struct SurfaceView {
   welkin::reference::Point sun{};  // towards it
 };
 std::vector<SurfaceView> surfaceViews();
+// Unit vector from the eye through a place in the picture, in pixels, rows downwards.
+welkin::reference::Point pixelWay(const SurfaceView& view, double x, double y);
 BodyMesh bodyMesh(const std::string& body);
 welkin::reference::MeshBody referenceBody(const BodyMesh& mesh);
 

@@ -13,36 +13,40 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std430) readonly buffer Input { float data[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer Output { float results[]; };
 
-const int CURVES = SOURCE_SIZE.x * SOURCE_SIZE.y * SOURCE_SIZE.z;
+const int CURVES = 4 * SOURCE_SIZE.x * SOURCE_SIZE.y * SOURCE_SIZE.z;
 const int ROWS = CURVES + 181 * SURFACE_SETS;
 const int COLUMNS_MAP = 0;
 const int FACES_MAP = 1;
 const int CURVES_MAP = 2;
 
-float texel(ivec3 i) {
+vec4 four(int i) {
+  return vec4(data[4 * i], data[4 * i + 1], data[4 * i + 2], data[4 * i + 3]);
+}
+
+vec4 texel(ivec3 i) {
   ivec3 c = clamp(i, ivec3(0), SOURCE_SIZE - 1);
-  return data[(c.z * SOURCE_SIZE.y + c.y) * SOURCE_SIZE.x + c.x];
+  return four((c.z * SOURCE_SIZE.y + c.y) * SOURCE_SIZE.x + c.x);
 }
 
 vec4 textureLod(uint source, vec3 place, float level) {
   vec3 at = place * vec3(SOURCE_SIZE) - 0.5;
   vec3 low = floor(at);
   vec3 part = at - low;
-  float sum = 0.0;
+  vec4 sum = vec4(0.0);
   for (int k = 0; k < 8; ++k) {
     ivec3 corner = ivec3(k & 1, k >> 1 & 1, k >> 2);
     vec3 weight = mix(1.0 - part, part, vec3(corner));
     sum += weight.x * weight.y * weight.z * texel(ivec3(low) + corner);
   }
-  return vec4(sum);
+  return sum;
 }
 
 vec4 textureLod(int map, vec2 place, float level) {
   if (map == CURVES_MAP) {
     float at = place.x * 181.0 - 0.5;
-    int first = CURVES + int(place.y * 8.0) * 181;
     int low = clamp(int(at), 0, 179);
-    return vec4(mix(data[first + low], data[first + low + 1], at - float(low)));
+    int first = CURVES / 4 + int(place.y * 2.0) * 181 + low;
+    return mix(four(first), four(first + 1), at - float(low));
   }
   float coverage = 1.0 / (1.0 + 0.1 * level);
   float slope = 0.6 * place.x / (1.0 + level);

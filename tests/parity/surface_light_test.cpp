@@ -65,8 +65,9 @@ double expected(const SurfaceSource& source, const float* row) {
 
 TEST(SurfaceLight, DeviceIsTheRuleInDouble) {
   const SurfaceSource source = surfaceSource(decodeCanonical(shippedCanonical()));
-  std::vector<float> input = source.values;
-  input.insert(input.end(), source.logPhase.begin(), source.logPhase.end());
+  const SurfaceSourceImage image = surfaceSourceImage(source);
+  std::vector<float> input = image.values;
+  input.insert(input.end(), image.logPhase.begin(), image.logPhase.end());
   const size_t first = input.size();
   std::mt19937 generator(11);
   std::normal_distribution<double> normal;

@@ -48,17 +48,15 @@ inline ClosedMesh sphereMesh(int times) {
 }
 
 // Not convex: rays cross it up to four times.
-inline ClosedMesh torusMesh() {
-  constexpr uint32_t AROUND = 24;
-  constexpr uint32_t ACROSS = 12;
+inline ClosedMesh torusMesh(uint32_t around = 24, uint32_t across = 12) {
   ClosedMesh mesh;
-  for (uint32_t i = 0; i < AROUND; ++i) {
-    for (uint32_t j = 0; j < ACROSS; ++j) {
-      const double u = 2 * std::numbers::pi * i / AROUND;
-      const double v = 2 * std::numbers::pi * j / ACROSS;
+  for (uint32_t i = 0; i < around; ++i) {
+    for (uint32_t j = 0; j < across; ++j) {
+      const double u = 2 * std::numbers::pi * i / around;
+      const double v = 2 * std::numbers::pi * j / across;
       const double r = 0.7 + 0.3 * std::cos(v);
       mesh.position.push_back({r * std::cos(u), r * std::sin(u), 0.3 * std::sin(v)});
-      const auto at = [&](uint32_t p, uint32_t q) { return p % AROUND * ACROSS + q % ACROSS; };
+      const auto at = [&](uint32_t p, uint32_t q) { return p % around * across + q % across; };
       mesh.triangle.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
       mesh.triangle.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     }

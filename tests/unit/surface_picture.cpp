@@ -45,21 +45,37 @@ void LightTexel::add(const LightTexel& other, double weight) {
   }
 }
 
-LightMap::LightMap(const reference::Body& body, size_t size)
-    : levels_(1), size_(size), half_(body.half), texel_(2 * body.half / static_cast<double>(size)) {
+namespace {
+
+std::vector<LightTexel> texelsOf(const reference::Body& body, size_t size) {
+  std::vector<LightTexel> texels;
+  const double edge = 2 * body.half / static_cast<double>(size);
   const double above = 10 * body.half;
   for (size_t i = 0; i < size * size; ++i) {
     LightTexel texel;
-    const double x = (static_cast<double>(i % size) + 0.5) * texel_ - half_;
-    const double y = (static_cast<double>(i / size) + 0.5) * texel_ - half_;
+    const double x = (static_cast<double>(i % size) + 0.5) * edge - body.half;
+    const double y = (static_cast<double>(i / size) + 0.5) * edge - body.half;
     const auto inside = body.inside({x, y, above}, {0, 0, -1});
     if (!inside.empty()) {
       texel = {1, lengthOf(inside), above - inside.front().begin, inside.front().beginNormal,
                inside.back().endNormal};
     }
-    levels_[0].push_back(texel);
+    texels.push_back(texel);
   }
-  for (size_t n = size; n > 1; n /= 2) {
+  return texels;
+}
+
+}  // namespace
+
+LightMap::LightMap(const reference::Body& body, size_t size)
+    : LightMap(texelsOf(body, size), body.half) {}
+
+LightMap::LightMap(std::vector<LightTexel> texels, double half)
+    : size_(static_cast<size_t>(std::lround(std::sqrt(static_cast<double>(texels.size()))))),
+      half_(half),
+      texel_(2 * half / static_cast<double>(size_)) {
+  levels_.push_back(std::move(texels));
+  for (size_t n = size_; n > 1; n /= 2) {
     const std::vector<LightTexel>& fine = levels_.back();
     std::vector<LightTexel> coarse(n * n / 4);
     for (size_t i = 0; i < n * n; ++i) {

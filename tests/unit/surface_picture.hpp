@@ -22,6 +22,8 @@ struct LightTexel {
 class LightMap {
  public:
   LightMap(const reference::Body& body, size_t size);
+  // From rows of a square of `half` to either side, a power of two of them.
+  LightMap(std::vector<LightTexel> texels, double half);
   // Linear in place and level; nothing beyond the map.
   LightTexel at(double x, double y, double level) const;
   double texel() const { return texel_; }

@@ -9,9 +9,12 @@ const int SOURCE_THICKNESSES = 23;
 const int SOURCE_LIGHTS = 5;
 const int SOURCE_VIEWS = 5;     // of each hemisphere
 const int SOURCE_AZIMUTHS = 4;  // 0 .. pi
-// Of the image: depth and view, thickness and azimuth, light and set.
-const ivec3 SOURCE_SIZE = ivec3(SOURCE_DEPTHS * SOURCE_VIEWS * 2,
-                                SOURCE_THICKNESSES * SOURCE_AZIMUTHS, SOURCE_LIGHTS * SURFACE_SETS);
+// Of the image: depth and view, thickness and azimuth, light and set. A texel has the values at a
+// view and an azimuth, at the next view, the next azimuth, and both, so that one fetch filters all
+// five axes' nodes but for two weights.
+const ivec3 SOURCE_SIZE = ivec3(SOURCE_DEPTHS * (SOURCE_VIEWS - 1) * 2,
+                                SOURCE_THICKNESSES * (SOURCE_AZIMUTHS - 1),
+                                SOURCE_LIGHTS * SURFACE_SETS);
 
 // Where a slab lies among the nodes.
 struct SourcePlace {
