@@ -62,8 +62,8 @@ constexpr Kind TARGETS{"targets", false, true, WLK_SCATTERING_FORWARD, true, fal
 constexpr Kind DROPLETS{"droplets", false, true, WLK_SCATTERING_FORWARD, true, true,
                         false,      false, 61};
 constexpr Kind SURFACE{"surface", false, true, WLK_SCATTERING_FORWARD, false, false,
-                       true,      false, 3};
-constexpr Kind SETTERS{"setters", false, true, WLK_SCATTERING_FORWARD, true, false, true, true, 5};
+                       true,      false, 4};
+constexpr Kind SETTERS{"setters", false, true, WLK_SCATTERING_FORWARD, true, false, true, true, 31};
 
 class Life {
  public:
