@@ -135,7 +135,8 @@ Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell) 
   std::vector<Shot> shots(methods.size());
   for (const size_t i : order) {
     tell("errors of " + methods[i].name);
-    shots[i] = shoot(worlds, qualityOf(methods[i]), methods[i].settings, staysForTiming(methods[i]));
+    const Method& method = methods[i];
+    shots[i] = shoot(worlds, qualityOf(method), method.settings, staysForTiming(method));
   }
   for (size_t i = 0; i < methods.size(); ++i) {
     const Method& method = methods[i];
