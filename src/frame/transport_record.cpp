@@ -89,7 +89,8 @@ void remember(std::vector<char>& kept, const LightKey& key) {
 }
 
 bool isKept(const std::vector<char>& kept, const LightKey& key) {
-  return kept.size() == sizeof key && std::memcmp(kept.data(), &key, sizeof key) == 0;
+  return std::equal(kept.begin(), kept.end(), reinterpret_cast<const char*>(&key),
+                    reinterpret_cast<const char*>(&key) + sizeof key);
 }
 
 // Whether both are of one volume as it is, under whatever light.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "model/air_input.hpp"
 #include "model/model.hpp"
@@ -14,7 +13,6 @@ namespace {
 
 using namespace model::f64;
 
-constexpr double PI = std::numbers::pi;
 constexpr size_t SUNS = FogLight::SUNS;
 constexpr size_t HEIGHTS = FogLight::HEIGHTS;
 constexpr size_t AZIMUTHS = FogLight::AZIMUTHS;
