@@ -47,7 +47,7 @@ TEST(SurfaceSlabScene, MiddleIsTheSlabOfItsDroplets) {
   host::LogCounter log;
   const host::ContextPtr context = host::makeHeadlessContext(false, "", log);
   host::applyWorld(context.get(), scene);
-  host::applyBodies(context.get(), scene, {});
+  host::applyBodies(context.get(), scene, [](const std::string&) {});
   const WlkView view = host::applyView(context.get(), scene);
   host::check(wlkPrepare(context.get()), "wlkPrepare");
   host::check(wlkRenderHeadless(context.get(), view, nullptr), "wlkRenderHeadless");
