@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The hypertexture as [B08] 6.2, 6.3 and 8 have it, in the place of that of surface_shell.glsl, to
-// measure what it costs (-DSHELL_NOISE_COMPUTED): 512 voxels along the body, noise in each of them.
-// In no shipped pass. Steps are a pixel or a texel wide where that is wider than a voxel; the core,
+// measure its cost (-DSHELL_NOISE_COMPUTED): 512 voxels along the body, noise computed in each. In
+// no shipped pass. Steps are a pixel or a texel wide where that is wider than a voxel; the core,
 // which has no noise, is crossed in wider ones, as Crassin and Neyret 2007 do in a sparse volume.
 #include "computed_noise.glsl"
 

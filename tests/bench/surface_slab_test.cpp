@@ -47,7 +47,7 @@ TEST(SurfaceSlabScene, MiddleIsTheSlabOfItsDroplets) {
   host::LogCounter log;
   const host::ContextPtr context = host::makeHeadlessContext(false, "", log);
   host::applyWorld(context.get(), scene);
-  host::applyBodies(context.get(), scene, {});
+  host::applyBodies(context.get(), scene, [](const std::string&) {});
   const WlkView view = host::applyView(context.get(), scene);
   host::check(wlkPrepare(context.get()), "wlkPrepare");
   host::check(wlkRenderHeadless(context.get(), view, nullptr), "wlkRenderHeadless");
@@ -78,7 +78,8 @@ TEST(SurfaceSlabScene, MiddleIsTheSlabOfItsDroplets) {
   std::printf("depth %.2f, sun %.3f, view %.3f, azimuth %.1f: %.4f of the truth\n", tau,
               static_cast<double>(sun[1]), toEye.y, azimuth / RADIANS, found / expected);
   // The rule has slabs of the canonical cloud of equal (1 - g) depth for all droplets.
-  EXPECT_NEAR(found / expected, 1, 0.1);
+  // Measured 0.054, and a fifth more.
+  EXPECT_NEAR(found / expected, 1, 0.065);
 }
 
 }  // namespace
