@@ -115,6 +115,8 @@ WlkQuality explicitQuality(const Settings& settings) {
   quality.slicing = settings.halfAngle ? HALF : ALIGNED;
   quality.scattering = settings.scattering;
   quality.volumeCells = settings.volumeCells;
+  quality.volumeResolution =
+      settings.halfResolution ? WLK_VOLUME_RESOLUTION_HALF : WLK_VOLUME_RESOLUTION_FULL;
   return quality;
 }
 
@@ -134,6 +136,7 @@ Settings convergedSettings(const Settings& settings) {
   converged.sliceCount = 1024;
   converged.batchSize = 64;
   converged.lightBufferSize = 1024;
+  converged.halfResolution = false;
   converged.halfAngle = false;  // both arrangements have one limit
   converged.volumeCells = 64;   // the finest level's: what is left of it, other solvers tell
   return converged;
@@ -143,6 +146,17 @@ std::vector<Method> levelMethods() {
   std::vector<Method> methods;
   for (uint32_t level = 0; level < LEVEL_COUNT; ++level) {
     methods.push_back({levelName(level), true, levelSettings(level)});
+  }
+  return methods;
+}
+
+std::vector<Method> otherResolution() {
+  std::vector<Method> methods;
+  for (const Method& level : levelMethods()) {
+    Method method{(level.settings.halfResolution ? "full-" : "half-") + level.name, false,
+                  level.settings};
+    method.settings.halfResolution = !level.settings.halfResolution;
+    methods.push_back(method);
   }
   return methods;
 }
@@ -163,6 +177,10 @@ std::vector<Method> methodsFor(const Case& one, bool hasVolumes, bool quick) {
   if (hasVolumes) {
     const std::vector<Method> forward = forwardMethods();
     methods.insert(methods.end(), forward.begin(), forward.end());
+    if (!quick) {
+      const std::vector<Method> other = otherResolution();
+      methods.insert(methods.end(), other.begin(), other.end());
+    }
   }
   for (const Variation& variation : VARIATIONS) {
     // Of a sky alone only the orders of scattering make a difference.

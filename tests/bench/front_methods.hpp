@@ -28,6 +28,8 @@ struct Settings {
   /// The scene's light of sky and ground on volumes, on its grid; without it slabs and texels alone
   /// are left.
   bool ambient = true;
+  /// Rays in every second pixel (WLK_VOLUME_RESOLUTION_HALF).
+  bool halfResolution = false;
 };
 
 struct Method {
@@ -58,6 +60,9 @@ std::vector<Method> methodsFor(const Case& one, bool hasVolumes, bool quick);
 
 /// The four levels.
 std::vector<Method> levelMethods();
+
+/// The four levels with the other resolution of volumes than their own: half for full, full for half.
+std::vector<Method> otherResolution();
 
 /// Slabs and texels of the four levels with forward scattering.
 std::vector<Method> forwardMethods();

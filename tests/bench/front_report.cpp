@@ -97,6 +97,7 @@ Ordered reportRow(const Case& one, const Row& row) {
             {"lightBufferSize", settings.lightBufferSize},
             {"slicing", settings.halfAngle ? "half-angle" : "light"},
             {"scattering", scatteringName(settings.scattering)},
+            {"resolution", settings.halfResolution ? "half" : "full"},
             {"phase", settings.analytic ? "analytic" : "table"}}},
           {"width", one.width},
           {"height", one.height},

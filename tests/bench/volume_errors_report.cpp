@@ -62,25 +62,31 @@ std::string format(const char* pattern, double a, double b = 0, double c = 0) {
   return text;
 }
 
-// A line per picture, a column per form and level that was run.
+// A line per picture, a column per form and level that was run for most of them: quick runs add
+// some forms for one picture of each kind.
 std::string pictureTable(const Ordered& rows, const std::string& kind) {
   std::vector<Column> columns;
+  size_t most = 0;
+  for (const Column& column : COLUMNS) {
+    most = std::max(most, rowsOf(rows, kind, column).size());
+  }
   std::vector<std::string> names;
   std::string head = "| " + kind + " |";
   std::string line = "|---|";
   for (const Column& column : COLUMNS) {
     const std::vector<const Ordered*> found = rowsOf(rows, kind, column);
+    if (2 * found.size() <= most) {
+      continue;
+    }
     for (const Ordered* row : found) {
       const std::string name = row->at("case");
       if (std::find(names.begin(), names.end(), name) == names.end()) {
         names.push_back(name);
       }
     }
-    if (!found.empty()) {
-      columns.push_back(column);
-      head += std::string(" ") + column.form + ", " + column.level + " |";
-      line += "---|";
-    }
+    columns.push_back(column);
+    head += std::string(" ") + column.form + ", " + column.level + " |";
+    line += "---|";
   }
   std::string text = head + "\n" + line + "\n";
   for (const std::string& name : names) {
