@@ -110,11 +110,19 @@ bool serves(uvec2 pixel, Ray between, Ray error, Ray most) {
   return smooth_;
 }
 
-// Rays a, b, c, d along a line.
+// Rays a, b, c, d along a line. Where the cubic leaves what can be, a straight line: cut off, light
+// and transmittance would no longer keep energy together.
 Ray cubic(Ray a, Ray b, Ray c, Ray d) {
   Ray between;
   between.state = middleOf(a.state, b.state, c.state, d.state);
   between.sums = middleOf(a.sums, b.sums, c.sums, d.sums);
+  vec3 light = between.state.xyz;
+  if (min(min(light.x, light.y), min(light.z, between.state.w)) < 0.0f || between.state.w > 1.0f) {
+    between.state = 0.5f * (b.state + c.state);
+  }
+  if (min(between.sums.y, between.sums.z) < 0.0f) {
+    between.sums = 0.5f * (b.sums + c.sums);
+  }
   between.sums.x = 0.5f * (b.sums.x + c.sums.x);  // surfaces have edges
   return between;
 }
@@ -139,8 +147,6 @@ void settle(uvec2 pixel, Ray between, Ray error, Ray most, inout uint count, ino
     return;
   }
   if (serves(pixel, between, error, most)) {
-    between.state = vec4(max(between.state.xyz, vec3(0.0f)), clamp(between.state.w, 0.0f, 1.0f));
-    between.sums = max(between.sums, vec4(0.0f));
     take(pixel, between);
   } else {
     uint both = pixel.x | (pixel.y << 16u);

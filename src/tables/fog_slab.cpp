@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <numbers>
 
+#include "tables/gauss_rule.hpp"
+
 namespace welkin {
 namespace {
 
@@ -17,42 +19,16 @@ constexpr double AIR_SECOND = 0.1;
 
 using Block = std::array<double, STREAMS * STREAMS>;
 
-// Gauss nodes of (0, 1), used for either hemisphere: orders up to 15 are integrated exactly, so
-// that scattering keeps energy.
-struct Nodes {
-  std::array<double, HALF> mu{};
-  std::array<double, HALF> weight{};
-};
-
-const Nodes& nodesOf() {
-  static const Nodes all = [] {
-    Nodes nodes;
-    for (size_t i = 0; i < HALF; ++i) {
-      double x = std::cos(PI * (static_cast<double>(i) + 0.75) / (HALF + 0.5));
-      double slope = 1;
-      for (int k = 0; k < 60; ++k) {
-        double before = 1;
-        double value = x;
-        for (size_t l = 2; l <= HALF; ++l) {
-          const auto n = static_cast<double>(l);
-          const double next = ((2 * n - 1) * x * value - (n - 1) * before) / n;
-          before = value;
-          value = next;
-        }
-        slope = HALF * (x * value - before) / (x * x - 1);
-        x -= value / slope;
-      }
-      nodes.mu[i] = 0.5 * (1 + x);
-      nodes.weight[i] = 1 / ((1 - x * x) * slope * slope);
-    }
-    return nodes;
-  }();
-  return all;
+// Used for either hemisphere: orders up to 15 are integrated exactly, so that scattering keeps
+// energy.
+const GaussRule& nodesOf() {
+  static const GaussRule rule = gaussRule(HALF);
+  return rule;
 }
 
 // Stream s: 0 to 7 travel down, 8 to 15 up.
 double cosineOf(size_t s) {
-  return s < HALF ? -nodesOf().mu[s] : nodesOf().mu[s - HALF];
+  return s < HALF ? -nodesOf().node[s] : nodesOf().node[s - HALF];
 }
 
 // Solves M x = b for several b at once; M is destroyed. Rows of x: `columns` long.
@@ -171,7 +147,7 @@ class FogSlab::Mode {
   const FogSlab& slab_;
   size_t beams_;
   Work& work_;
-  const Nodes& nodes_;
+  const GaussRule& nodes_;
   size_t last_;                                 // edge
   std::array<FogTermsOf, STREAMS> legendre_{};  // [stream][l - m]
 };
@@ -201,7 +177,7 @@ double FogSlab::Mode::kernel(const FogCell& cell, size_t to, const FogTermsOf& f
 double FogSlab::Mode::coefficient(const FogCell& cell, size_t i, size_t j, bool out) const {
   double result = -0.25 * nodes_.weight[j % HALF] * kernel(cell, i, legendre_[j]) * cell.depth;
   if (i == j) {
-    result += 0.5 * cell.depth + (out ? 1 : -1) * nodes_.mu[i % HALF];
+    result += 0.5 * cell.depth + (out ? 1 : -1) * nodes_.node[i % HALF];
   }
   return result;
 }
@@ -224,7 +200,7 @@ void FogSlab::Mode::fillEdge(size_t l) {
       } else {
         edge.own.lu[at] = i == j ? 1 : 0;
         if (!down && m_ == 0 && j < HALF) {  // the ground
-          edge.own.lu[at] -= 2 * slab_.groundAlbedo_ * nodes_.weight[j] * nodes_.mu[j];
+          edge.own.lu[at] -= 2 * slab_.groundAlbedo_ * nodes_.weight[j] * nodes_.node[j];
         }
       }
     }

@@ -3,8 +3,9 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 #include <vector>
+
+#include "tables/gauss_rule.hpp"
 
 namespace welkin {
 
@@ -13,24 +14,11 @@ struct Zenith {
   double weight;
 };
 
-// Gauss-Legendre nodes on 0 to 1, by Newton's iteration from the usual guess.
 inline std::vector<Zenith> gaussNodes(int count) {
+  const GaussRule rule = gaussRule(static_cast<size_t>(count));
   std::vector<Zenith> nodes;
-  for (int i = 0; i < count; ++i) {
-    double x = std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5));
-    double slope = 1;
-    for (int k = 0; k < 50; ++k) {
-      double p0 = 1;
-      double p1 = x;
-      for (int l = 2; l <= count; ++l) {
-        const double p2 = ((2 * l - 1) * x * p1 - (l - 1) * p0) / l;
-        p0 = p1;
-        p1 = p2;
-      }
-      slope = count * (x * p1 - p0) / (x * x - 1);
-      x -= p1 / slope;
-    }
-    nodes.push_back({0.5 + 0.5 * x, 1 / ((1 - x * x) * slope * slope)});
+  for (size_t i = 0; i < rule.node.size(); ++i) {
+    nodes.push_back({rule.node[i], rule.weight[i]});
   }
   return nodes;
 }

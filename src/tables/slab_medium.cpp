@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
+
+#include "tables/gauss_rule.hpp"
 
 namespace welkin {
 namespace {
@@ -59,40 +60,10 @@ void slabLegendre(int m, double mu, std::span<double> result) {
   }
 }
 
-void slabGauss(size_t count, std::vector<double>& node, std::vector<double>& weight) {
-  node.resize(count);
-  weight.resize(count);
-  const auto n = static_cast<double>(count);
-  for (size_t i = 0; i < count; ++i) {
-    double x = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) / (n + 0.5));
-    double slope = 1;
-    for (int step = 0; step < 50; ++step) {
-      double before = 1;
-      double value = x;
-      for (size_t l = 2; l <= count; ++l) {
-        const auto order = static_cast<double>(l);
-        const double next = ((2 * order - 1) * x * value - (order - 1) * before) / order;
-        before = value;
-        value = next;
-      }
-      slope = n * (before - x * value) / ((1 - x) * (1 + x));
-      const double change = value / slope;
-      x -= change;
-      if (std::abs(change) < 1e-15) {
-        break;
-      }
-    }
-    node[i] = (1 - x) / 2;  // rising
-    weight[i] = 1 / ((1 - x) * (1 + x) * slope * slope);
-  }
-}
-
 SlabMedium::SlabMedium(std::vector<double> moments, double thickness, size_t nodes, double fineness)
     : moments_(std::move(moments)), depth_(slabDepths(thickness, fineness)) {
-  std::vector<double> mu;
-  std::vector<double> weight;
-  slabGauss(nodes, mu, weight);
-  nodes_ = directions(std::move(mu), std::move(weight));
+  GaussRule rule = gaussRule(nodes);
+  nodes_ = directions(std::move(rule.node), std::move(rule.weight));
 }
 
 SlabDirections SlabMedium::directions(std::vector<double> mu, std::vector<double> weight) const {

@@ -96,7 +96,4 @@ void combineRows(std::span<const double> coefficient, size_t columns, const doub
 // sqrt((l - m)! / (l + m)!) P_l^m(mu), l = m .. m + result.size() - 1, without the sign (-1)^m.
 void slabLegendre(int m, double mu, std::span<double> result);
 
-// Gauss's rule on [0, 1].
-void slabGauss(size_t count, std::vector<double>& node, std::vector<double>& weight);
-
 }  // namespace welkin

@@ -111,6 +111,7 @@ TEST(AerialFroxels, AreOpaquePixelsAtTheirDistance) {
     s.scene.setCamera({0, 400, 0}, 0, 8);
     for (const uint32_t batchSize : {0u, 8u}) {
       auto quality = make<WlkQuality>();
+      quality.volumeResolution = WLK_VOLUME_RESOLUTION_FULL;
       quality.level = WLK_QUALITY_LOW;
       quality.batchSize = batchSize;
       quality.flags = scenery.qualityFlags;
@@ -255,6 +256,7 @@ TEST(AerialFroxels, HaveTheRadianceOfAQuadrature) {
   s.scene.setSky();
   s.scene.setSun(30, 60);
   auto quality = make<WlkQuality>();
+  quality.volumeResolution = WLK_VOLUME_RESOLUTION_FULL;
   quality.scattering = WLK_SCATTERING_SINGLE;
   check(wlkSetQuality(s.scene.context, s.scene.view, &quality));
   const std::array<double, 3> eye{0, 1500, 0};

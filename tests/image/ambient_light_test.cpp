@@ -62,10 +62,12 @@ class AmbientLight : public ::testing::Test {
   }
   ~AmbientLight() override { EXPECT_TRUE(scene_.messages().empty()) << scene_.messages().front(); }
 
-  void setLevel(uint32_t level, uint32_t scattering) {
+  void setLevel(uint32_t level, uint32_t scattering,
+                uint32_t resolution = WLK_VOLUME_RESOLUTION_FULL) {
     Quality quality;
     quality.level = level;
     quality.scattering = scattering;
+    quality.resolution = resolution;
     quality.slices = quality.lightSize = 0;  // of the level
     scene_.setQuality(quality);
   }
@@ -80,14 +82,19 @@ class AmbientLight : public ::testing::Test {
   SlicingScene scene_;
 };
 
-// Light from everywhere that nothing absorbs is the same everywhere.
+// Light from everywhere that nothing absorbs is the same everywhere, also between rays of every
+// second pixel, which the levels take.
 TEST_F(AmbientLight, OfAFurnaceHidesWhatDoesNotAbsorb) {
   setAmbient(1, 1);
-  for (const auto& [level, scattering] : {std::pair{WLK_QUALITY_LOW, WLK_SCATTERING_ALL_ORDERS},
-                                          std::pair{WLK_QUALITY_LOW, WLK_SCATTERING_FORWARD},
-                                          std::pair{WLK_QUALITY_HIGH, WLK_SCATTERING_ALL_ORDERS},
-                                          std::pair{WLK_QUALITY_HIGH, WLK_SCATTERING_FORWARD}}) {
-    setLevel(level, scattering);
+  struct Form {
+    uint32_t level, scattering, resolution;
+  };
+  for (const auto& [level, scattering, resolution] :
+       {Form{WLK_QUALITY_LOW, WLK_SCATTERING_ALL_ORDERS, WLK_VOLUME_RESOLUTION_DEFAULT},
+        Form{WLK_QUALITY_LOW, WLK_SCATTERING_FORWARD, WLK_VOLUME_RESOLUTION_FULL},
+        Form{WLK_QUALITY_HIGH, WLK_SCATTERING_ALL_ORDERS, WLK_VOLUME_RESOLUTION_DEFAULT},
+        Form{WLK_QUALITY_HIGH, WLK_SCATTERING_FORWARD, WLK_VOLUME_RESOLUTION_DEFAULT}}) {
+    setLevel(level, scattering, resolution);
     for (const double depth : {0.5, 5.0, 100.0}) {
       for (const double g : {0.0, 0.85}) {
         if (level == WLK_QUALITY_HIGH && g == 0) {
@@ -105,8 +112,8 @@ TEST_F(AmbientLight, OfAFurnaceHidesWhatDoesNotAbsorb) {
                 std::max(most, std::abs(picture.radiance[i][0] + picture.transmittance[i][0] - 1));
           }
         }
-        std::printf("level %u, scattering %u, depth %g, g %g: %.1e\n", uint32_t{level},
-                    uint32_t{scattering}, depth, g, most);
+        std::printf("level %u, scattering %u, depth %g, g %g: %.1e\n", level, scattering,
+                    depth, g, most);
         // Single precision over some hundred steps.
         EXPECT_LT(most, 2e-4);
         scene_.removeVolume(volume);

@@ -139,6 +139,7 @@ void SlicingScene::setQuality(const Quality& quality) {
   q.lightBufferSize = quality.lightSize;
   q.slicing = quality.slicing;
   q.scattering = quality.scattering;
+  q.volumeResolution = quality.resolution;
   welkin::check(wlkSetQuality(scene_.context, scene_.view, &q));
 }
 

@@ -51,6 +51,7 @@ struct Quality {
   uint32_t batch = 0;
   uint32_t lightSize = 256;
   uint32_t level = WLK_QUALITY_HIGH;
+  uint32_t resolution = WLK_VOLUME_RESOLUTION_FULL;
 };
 
 // Square image: premultiplied radiance and transmittance, RGB.

@@ -48,6 +48,9 @@ void DistanceScene::setQuality(uint32_t batchSize, const WlkQuality& settings) c
   WlkQuality quality = settings;
   quality.sliceCount = SLABS;
   quality.batchSize = batchSize;
+  if (quality.volumeResolution == WLK_VOLUME_RESOLUTION_DEFAULT) {
+    quality.volumeResolution = WLK_VOLUME_RESOLUTION_FULL;  // single pixels are looked at
+  }
   check(wlkSetQuality(scene.context, scene.view, &quality));
   check(wlkPrepare(scene.context));
 }

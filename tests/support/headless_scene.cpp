@@ -195,6 +195,7 @@ WlkView SceneBuilder::addView(const SceneOptions& options) const {
   auto quality = make<WlkQuality>();
   quality.level = options.level;
   quality.scattering = options.scattering;
+  quality.volumeResolution = options.volumeResolution;
   quality.flags = options.qualityFlags;
   check(wlkSetQuality(context, made, &quality));
   return made;
@@ -224,6 +225,7 @@ void SceneBuilder::setQuality(uint32_t level, uint64_t flags) const {
   auto quality = make<WlkQuality>();
   quality.level = level;
   quality.scattering = options_.scattering;
+  quality.volumeResolution = options_.volumeResolution;
   quality.flags = flags;
   check(wlkSetQuality(context, view, &quality));
 }

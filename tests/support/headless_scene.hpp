@@ -45,6 +45,8 @@ struct SceneOptions {
   uint32_t level = WLK_QUALITY_LOW;
   uint32_t scattering = WLK_SCATTERING_DEFAULT;
   uint64_t qualityFlags = 0;
+  // Tests look at single pixels; half_resolution_test.cpp has the levels' choice.
+  uint32_t volumeResolution = WLK_VOLUME_RESOLUTION_FULL;
   // The library's default ambient light, of sky and ground; else none, so that volumes have the
   // light of the sun alone.
   bool ambient = false;

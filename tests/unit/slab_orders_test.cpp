@@ -12,6 +12,7 @@
 #include "reference/slab_solver.hpp"
 #include "tables/canonical_builder.hpp"
 #include "tables/canonical_phase.hpp"
+#include "tables/gauss_rule.hpp"
 
 namespace {
 
@@ -59,10 +60,9 @@ double leaves(const Slab& slab, size_t set, size_t lane, const SlabDirections& v
 
 // The directions, not the solver's own ones, in which what leaves is added up: `nodes` of them.
 void expectEnergy(const Slab& slab, size_t nodes) {
-  std::vector<double> mu;
-  std::vector<double> weight;
-  slabGauss(nodes, mu, weight);
-  const SlabDirections views = slab.medium.directions(mu, weight);
+  GaussRule rule = gaussRule(nodes);
+  const SlabDirections views =
+      slab.medium.directions(std::move(rule.node), std::move(rule.weight));
   const double thickness = slab.medium.thickness();
   for (size_t lane = 0; lane < SUNS.size(); ++lane) {
     double sum = std::exp(-thickness / SUNS[lane]);
