@@ -49,6 +49,7 @@ class VolumeLight : public ::testing::Test {
     auto quality = welkin::make<WlkQuality>();
     quality.level = WLK_QUALITY_LOW;
     quality.volumeCells = cells;
+    quality.volumeResolution = WLK_VOLUME_RESOLUTION_FULL;  // mirrored pixel by pixel
     quality.scattering = scattering;
     quality.flags = flags;
     welkin::check(wlkSetQuality(scene->context, scene->view, &quality));
