@@ -227,6 +227,10 @@ def tests():
             last = row.rstrip(" |").rpartition(" | ")[2]
             if not re.search(r"`\*?[A-Z]\w*\.", last) and not last.startswith("none: "):
                 report(page, f"no test and no reason in: {row}")
+    table = subprocess.run([SOURCE / "tools" / "sweep_table"], capture_output=True, text=True,
+                           check=True).stdout
+    if table not in text:
+        report(page, "its table of sweeps is not that of tools/sweep_table")
     return len(named)
 
 
