@@ -132,6 +132,7 @@ class GoldenBudget : public ::testing::TestWithParam<GoldenScene> {
       scene.setFog(1e-4f, 200.0f);
     }
     std::vector<WlkVolume> volumes;
+    volumes.reserve(2);
     for (int i = 0; i < GetParam().volumes; ++i) {
       volumes.push_back(scene.addBall(i == 0 ? 0.01f : 0.002f));
     }
