@@ -6,7 +6,7 @@ links      every link and picture of every page leads somewhere, also to the hea
 code       what stands in ```c, glsl and python compiles or runs; the README's C host runs
 commands   programs, options, presets and files of shell blocks exist
 reference  Doxygen has no complaint, and every function and structure of the API has its text
-tests      every test that docs/reliability.md names exists
+tests      every test that docs/reliability.md names exists, and no row of its tables lacks one
 """
 import os
 import pathlib
@@ -217,9 +217,20 @@ def tests():
         for suite, name in re.findall(r"^(?:TYPED_)?TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", text, re.M):
             known.update((f"{suite}.{name}", f"{suite}.*"))
     known.add("Docs.Tests")
-    named = re.findall(r"`([A-Z]\w*\.(?:[A-Z]\w*|\*))`", page.read_text(encoding="utf-8"))
+    text = page.read_text(encoding="utf-8")
+    named = re.findall(r"`([A-Z]\w*\.(?:[A-Z]\w*|\*))`", text)
     for name in sorted(set(named) - known):
         report(page, f"there is no test {name}")
+    # Tables whose last column is "test": each row names one or says why there is none.
+    for rows in re.findall(r"^\|.*\| test \|\n\|[-|]+\|\n((?:\|.*\n)+)", text, re.M):
+        for row in rows.splitlines():
+            last = row.rstrip(" |").rpartition(" | ")[2]
+            if not re.search(r"`\*?[A-Z]\w*\.", last) and not last.startswith("none: "):
+                report(page, f"no test and no reason in: {row}")
+    table = subprocess.run([SOURCE / "tools" / "sweep_table"], capture_output=True, text=True,
+                           check=True).stdout
+    if table not in text:
+        report(page, "its table of sweeps is not that of tools/sweep_table")
     return len(named)
 
 

@@ -2,6 +2,7 @@
 #include "support/engine_scene.hpp"
 
 #include <cstring>
+#include <ctime>
 
 namespace welkin::test {
 namespace {
@@ -9,6 +10,13 @@ namespace {
 VkFormat formatOf(uint32_t targetFormat) {
   return targetFormat == WLK_TARGET_RGBA32_FLOAT ? VK_FORMAT_R32G32B32A32_SFLOAT
                                                  : VK_FORMAT_R16G16B16A16_SFLOAT;
+}
+
+// CPU time of this thread alone, without the driver's workers.
+double threadSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 }  // namespace
@@ -24,7 +32,8 @@ WlkVulkanDeviceInfo describeDevice(const SpyDevice& spy) {
   return info;
 }
 
-EngineScene::EngineScene(const SceneOptions& options) : SceneBuilder(options) {
+EngineScene::EngineScene(const SceneOptions& options)
+    : SpiedEngine(options.validation), SceneBuilder(options) {
   auto info = describeDevice(spy);
   info.dualSrcBlendEnabled = 1;
   create(&info);
@@ -80,8 +89,9 @@ FrameCounts EngineScene::renderFrames(std::span<const WlkView> views) {
   }
   FrameCounts counts;
   WlkResult result = WLK_SUCCESS;
-  spy.run([&](VkCommandBuffer commands) {
+  const auto record = [&](VkCommandBuffer commands) {
     SpyDevice::counts() = {};
+    const double start = threadSeconds();
     if (update) {
       check(wlkVulkanCmdUpdate(context, commands));
     }
@@ -91,8 +101,14 @@ FrameCounts EngineScene::renderFrames(std::span<const WlkView> views) {
       const WlkResult last = wlkVulkanCmdRenderView(context, commands, one, &images);
       result = result == WLK_SUCCESS ? last : result;
     }
+    counts.cpuSeconds = threadSeconds() - start;
     counts.view = SpyDevice::counts();
-  });
+  };
+  if (submit) {
+    spy.run(record);
+  } else {
+    spy.record(record);
+  }
   check(result);
   return counts;
 }

@@ -15,8 +15,9 @@
 namespace welkin::test {
 
 struct FrameCounts {
-  VulkanCounts update;  // by wlkVulkanCmdUpdate
-  VulkanCounts view;    // by wlkVulkanCmdRenderView
+  VulkanCounts update;      // by wlkVulkanCmdUpdate
+  VulkanCounts view;        // by wlkVulkanCmdRenderView
+  double cpuSeconds = 0.0;  // of the calling thread in both
 };
 
 // What a context is made from on a spied device.
@@ -24,6 +25,7 @@ WlkVulkanDeviceInfo describeDevice(const SpyDevice& spy);
 
 // The spied device comes first in construction and last in destruction.
 struct SpiedEngine {
+  explicit SpiedEngine(bool validation) : spy(validation) {}
   SpyDevice spy;
 };
 
@@ -40,6 +42,8 @@ class EngineScene : private SpiedEngine, public SceneBuilder {
   bool inPlace = false;
   // Frames record wlkVulkanCmdUpdate.
   bool update = true;
+  // Else frames are recorded and thrown away: their pictures take minutes where counts take none.
+  bool submit = true;
   // A shadow map of the engine; both or none.
   const WlkLightShadow* lightShadow = nullptr;
   const WlkVulkanImage* shadowMap = nullptr;

@@ -136,11 +136,11 @@ VKAPI_ATTR VkBool32 VKAPI_CALL keepMessage(VkDebugUtilsMessageSeverityFlagBitsEX
 
 }  // namespace
 
-SpyDevice::SpyDevice() {
+SpyDevice::SpyDevice(bool validation) {
   chooseDriver();
   spied.counts = {};
   spied.asked.clear();
-  createInstance();
+  createInstance(validation);
   createDevice();
   VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
   pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
@@ -158,12 +158,14 @@ SpyDevice::~SpyDevice() {
   vkDestroyFence(device, fence_, nullptr);
   vkDestroyCommandPool(device, pool_, nullptr);
   vkDestroyDevice(device, nullptr);
-  reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(
-      instance, "vkDestroyDebugUtilsMessengerEXT"))(instance, messenger_, nullptr);
+  if (messenger_ != VK_NULL_HANDLE) {
+    reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(
+        instance, "vkDestroyDebugUtilsMessengerEXT"))(instance, messenger_, nullptr);
+  }
   vkDestroyInstance(instance, nullptr);
 }
 
-void SpyDevice::createInstance() {
+void SpyDevice::createInstance(bool validation) {
   VkDebugUtilsMessengerCreateInfoEXT messenger{
       VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
   messenger.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
@@ -181,8 +183,12 @@ void SpyDevice::createInstance() {
   VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
   application.apiVersion = VK_API_VERSION_1_3;
   VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
-  info.pNext = &features;
   info.pApplicationInfo = &application;
+  if (!validation) {
+    require(vkCreateInstance(&info, nullptr, &instance), "vkCreateInstance");
+    return;
+  }
+  info.pNext = &features;
   info.enabledLayerCount = 1;
   info.ppEnabledLayerNames = &layer;
   info.enabledExtensionCount = 1;
@@ -231,7 +237,7 @@ const std::set<std::string>& SpyDevice::namesAsked() {
   return spied.asked;
 }
 
-void SpyDevice::run(const std::function<void(VkCommandBuffer)>& record) const {
+void SpyDevice::record(const std::function<void(VkCommandBuffer)>& record) const {
   VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   require(vkBeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
@@ -242,6 +248,10 @@ void SpyDevice::run(const std::function<void(VkCommandBuffer)>& record) const {
     throw;
   }
   require(vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
+}
+
+void SpyDevice::run(const std::function<void(VkCommandBuffer)>& commands) const {
+  record(commands);
   VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
   submit.commandBufferCount = 1;
   submit.pCommandBuffers = &commands_;

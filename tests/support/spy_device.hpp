@@ -28,7 +28,7 @@ struct VulkanCounts {
 class SpyDevice {
  public:
   // Validation with synchronisation validation; messages land in messages().
-  SpyDevice();
+  explicit SpyDevice(bool validation = true);
   ~SpyDevice();
   SpyDevice(const SpyDevice&) = delete;
   SpyDevice& operator=(const SpyDevice&) = delete;
@@ -47,10 +47,12 @@ class SpyDevice {
 
   // Records with `record`, submits, waits. Where `record` throws, nothing is submitted.
   void run(const std::function<void(VkCommandBuffer)>& record) const;
+  // Records and throws away.
+  void record(const std::function<void(VkCommandBuffer)>& record) const;
   const std::vector<std::string>& messages() const { return messages_; }
 
  private:
-  void createInstance();
+  void createInstance(bool validation);
   void createDevice();
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   VkCommandPool pool_ = VK_NULL_HANDLE;

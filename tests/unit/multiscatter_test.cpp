@@ -298,6 +298,25 @@ TEST(Multiscatter, TableMatchesTheSourceBetweenItsNodes) {
   }
 }
 
+// The source's logarithm changes fastest at n = 0, by the second order over the first less one.
+// Whole orders step by ln 3.8 at once, forwards from the first to the second.
+TEST(Multiscatter, TableHasNoStepBetweenOrders) {
+  constexpr double STEP = 0.02;
+  constexpr double SECOND = 5.0 - 1.0;  // of 50 um, to the side, where the first order is least
+  constexpr double CHORDS = 1.25;       // of a table that is linear between nodes of ln(1 + n)
+  for (const Case& c : {fog(5), fog(20), fog(50), hg(0.85)}) {
+    const Rows t = build(c.phase);
+    double worst = 0;
+    for (const double y : {0.0, 1e-4, 0.01, 0.2, 1.0, 2.0}) {
+      for (double n = 0; n < 20; n += STEP) {
+        const double change = std::log(lookUp(t, n + STEP, y) / lookUp(t, n, y));
+        worst = std::max(worst, std::abs(change) / STEP);
+      }
+    }
+    EXPECT_LE(worst, SECOND * CHORDS) << c.name;
+  }
+}
+
 TEST(Multiscatter, BuildTakesLessThanThreeTenthsOfASecond) {
   const std::clock_t start = std::clock();
   build(fog(50).phase);

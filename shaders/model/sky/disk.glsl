@@ -51,7 +51,7 @@ const real PHASE_FLOOR = real(1.44e-5);
 // sin(a/2) tan(a/2) ln cot(a/4), a the phase angle between unit vectors from the ball to its light
 // (litFrom) and to the eye (-toLight). Rewritten: 1 - (1 - c^2) atanh(c) / c with c = cos(a/2), and
 // near new moon its series, 2/3 c^2 + 2/15 c^4 + ..., of positive terms. Relative error 2e-9 in
-// double, 5e-6 in float. Not below PHASE_FLOOR.
+// double, 8e-6 in float. Not below PHASE_FLOOR.
 real phaseIntegral(vec3 toLight, vec3 litFrom) {
   vec3 across = litFrom - toLight;
   vec3 along = litFrom + toLight;
