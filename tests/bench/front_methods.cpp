@@ -103,8 +103,11 @@ Settings levelSettings(uint32_t level) {
   constexpr std::array<std::array<uint32_t, 2>, LEVEL_COUNT> LEVELS = {
       {{32, 96}, {64, 160}, {128, 256}, {256, 448}}};
   const auto& [slices, light] = LEVELS.at(level);
-  return {level, slices, 0, light, false, WLK_SCATTERING_ALL_ORDERS, false, 0, true,
-          level != WLK_QUALITY_ULTRA};
+  return {level, slices,
+          0,     light,
+          false, WLK_SCATTERING_ALL_ORDERS,
+          false, 0,
+          true,  level != WLK_QUALITY_ULTRA};
 }
 
 WlkQuality explicitQuality(const Settings& settings) {

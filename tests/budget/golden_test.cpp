@@ -159,6 +159,7 @@ TEST_P(GoldenBudget, IsExactAtEveryLevel) {
     options.width = 24;
     options.height = 16;
     options.level = level;
+    options.volumeResolution = WLK_VOLUME_RESOLUTION_DEFAULT;
     options.ambient = true;
     options.validation = false;  // which the frames of the other tests have
     options.allocator = memory.callbacks();

@@ -112,8 +112,8 @@ TEST_F(AmbientLight, OfAFurnaceHidesWhatDoesNotAbsorb) {
                 std::max(most, std::abs(picture.radiance[i][0] + picture.transmittance[i][0] - 1));
           }
         }
-        std::printf("level %u, scattering %u, depth %g, g %g: %.1e\n", level, scattering,
-                    depth, g, most);
+        std::printf("level %u, scattering %u, depth %g, g %g: %.1e\n", level, scattering, depth, g,
+                    most);
         // Single precision over some hundred steps.
         EXPECT_LT(most, 2e-4);
         scene_.removeVolume(volume);

@@ -61,8 +61,7 @@ double leaves(const Slab& slab, size_t set, size_t lane, const SlabDirections& v
 // The directions, not the solver's own ones, in which what leaves is added up: `nodes` of them.
 void expectEnergy(const Slab& slab, size_t nodes) {
   GaussRule rule = gaussRule(nodes);
-  const SlabDirections views =
-      slab.medium.directions(std::move(rule.node), std::move(rule.weight));
+  const SlabDirections views = slab.medium.directions(std::move(rule.node), std::move(rule.weight));
   const double thickness = slab.medium.thickness();
   for (size_t lane = 0; lane < SUNS.size(); ++lane) {
     double sum = std::exp(-thickness / SUNS[lane]);
