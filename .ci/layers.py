@@ -18,8 +18,8 @@ ANY = r".*"
 # Ours are repository paths; "generated" files exist in the build tree only and count as others.
 RULES = [
     (r"include/welkin/core\.h", r"-", STANDARD),
-    (r"include/welkin/(scene|surface|view|query|welkin)\.h",
-     r"include/welkin/(core|scene|surface|view|query)\.h", STANDARD),
+    (r"include/welkin/(scene|surface|view|output|statistics|query|welkin)\.h",
+     r"include/welkin/(core|scene|surface|view|output|statistics|query)\.h", STANDARD),
     (r"include/welkin/welkin_vulkan\.h", r"include/welkin/welkin\.h", VULKAN),
     (r"include/welkin/.*\.hpp", r"include/welkin/.*", STANDARD),
     (r"shaders/model/(model|sky/sky)\.glsl", r"shaders/model/.*", r"-"),

@@ -58,7 +58,7 @@ typedef struct WlkAbsorber {
    *  wavelengths; at 680, 550 and 440 nm alone it is 6.5e-7, 1.881e-6, 8.5e-8, with which twilight
    *  is green (docs/accuracy-and-performance.md, Colour). Times halfWidth, it is the vertical
    *  optical depth where the whole profile is above the ground. */
-  float extinction[3];
+  float absorption[3];
   /** Altitude of the densest part. m, [0, 1e5], default 25000. */
   float peakAltitude;
   /** From the peak to where the density is 0, up and down. m, [100, 1e5], default 15000. */
@@ -275,7 +275,7 @@ enum {
 };
 
 /** As wlkInitStruct, with the values of an atmosphere (WLK_ATMOSPHERE_*) instead of the defaults.
- * It consists of WLK_STRUCT_PLANET, SKY, ABSORBER (extinction 0 where there is no such gas), FOG
+ * It consists of WLK_STRUCT_PLANET, SKY, ABSORBER (absorption 0 where there is no such gas), FOG
  * (its haze or dust; `medium` is 0: create the next and set it), MEDIUM_INFO (what the haze is) and
  * LIGHT (the sun as seen from there, straight up; `irradiance` is relative to that at the Earth, 1
  * there: multiply it by the engine's own value). The caller changes what it wants and sets what it
@@ -451,7 +451,7 @@ typedef struct WlkVolumeState {
   uint32_t bricks[3];
   /** 1 where eye rays leap over empty bricks, else 0. wlkPrepare decides: where something can be
    *  met in under 40 % of the bricks, until it can in 80 %, and no field is an engine's image.
-   *  WLK_QUALITY_NO_SKIP does without; the picture is the same. */
+   *  WLK_QUALITY_FLAG_NO_SKIP does without; the picture is the same. */
   uint32_t leaps;
   /** Bricks that hold a value above 0, those of all fields together. What is overwritten by parts
    *  of a brick counts as before. */

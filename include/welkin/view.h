@@ -41,7 +41,7 @@ enum {
   /** Linear sRGB (Rec. 709, D65) of the whole spectrum that these three stand for. Irradiance 1, 1,
    *  1 is then sunlight outside the atmosphere: luminance 1, colour (1.098, 0.977, 0.940). Colours
    *  outside the gamut are cut off at 0. */
-  WLK_COLOR_SRGB = 1
+  WLK_COLOR_LINEAR_SRGB = 1
 };
 
 /** A picture that is drawn again and again: its size, and how it reaches the engine's. */
@@ -59,7 +59,7 @@ typedef struct WlkViewInfo {
   /** Bits WLK_LAYER_*. Default all. */
   uint64_t layers;
   /** WLK_COLOR_*. Default WAVELENGTHS. */
-  uint32_t color;
+  uint32_t colorSpace;
   uint32_t reserved0;
 } WlkViewInfo;
 
@@ -117,11 +117,11 @@ enum {
 
 enum {
   /** Record every pass whether needed or not; for tests that compare with skipping. */
-  WLK_QUALITY_NO_SKIP = 1u << 0,
+  WLK_QUALITY_FLAG_NO_SKIP = 1u << 0,
   /** Volumes shade air, fog, bare planet from the first light; what layers let through arrives. */
-  WLK_QUALITY_VOLUME_SHADOWS = 1u << 1,
+  WLK_QUALITY_FLAG_VOLUME_SHADOWS = 1u << 1,
   /** So does the engine's shadow map (WlkLightShadow) given with a view's targets: shafts. */
-  WLK_QUALITY_LIGHT_SHADOWS = 1u << 2
+  WLK_QUALITY_FLAG_LIGHT_SHADOWS = 1u << 2
 };
 
 /** In how many pixels the rays of volumes are marched. */
@@ -167,7 +167,7 @@ typedef struct WlkQuality {
   uint32_t slicing;
   /** WLK_SCATTERING_*. Default DEFAULT. */
   uint32_t scattering;
-  /** Bits WLK_QUALITY_NO_SKIP, WLK_QUALITY_VOLUME_SHADOWS. Default 0. */
+  /** Bits WLK_QUALITY_FLAG_NO_SKIP, WLK_QUALITY_FLAG_VOLUME_SHADOWS. Default 0. */
   uint64_t flags;
   /** With ALL_ORDERS: edge of a cube with as many cells as the grid of a volume has at most. 0 or
    *  [8, 128], 72 where storage buffers are the least 128 MiB (wlkPrepare). Default 0. */
@@ -319,7 +319,7 @@ typedef struct WlkLightShadow {
 } WlkLightShadow;
 
 /** The engine's picture for wlkRenderHeadless. */
-typedef struct WlkHeadlessTargets {
+typedef struct WlkHeadlessInputs {
   uint32_t sType;
   uint32_t structSize;
   const void* next;
@@ -327,20 +327,20 @@ typedef struct WlkHeadlessTargets {
   const float* color;
   /** width * height depth values in the camera's convention; null means nothing is there. */
   const float* depth;
-  /** A shadow map; null: none. Needs WLK_QUALITY_LIGHT_SHADOWS. Default null. */
+  /** A shadow map; null: none. Needs WLK_QUALITY_FLAG_LIGHT_SHADOWS. Default null. */
   const WlkLightShadow* lightShadow;
   /** shadowWidth * shadowHeight * cascadeCount depth values, the cascades one after the other. */
   const float* shadowDepth;
   /** Texels of a cascade. [1, 8192]. */
   uint32_t shadowWidth;
   uint32_t shadowHeight;
-} WlkHeadlessTargets;
+} WlkHeadlessInputs;
 
-/** Renders one frame of the view and waits for it. `targets` may be null. [C]
+/** Renders one frame of the view and waits for it. `inputs` may be null. [C]
  *  Errors: WRONG_STATE outside headless mode and for a shadow map without the quality's flag,
  *  INVALID_ARGUMENT, NOT_PREPARED, OUT_OF_*, DEVICE_LOST. */
 WLK_API WlkResult wlkRenderHeadless(WlkContext context, WlkView view,
-                                    const WlkHeadlessTargets* targets);
+                                    const WlkHeadlessInputs* inputs);
 
 enum {
   /** The composited picture (COMPUTE). */
@@ -368,130 +368,6 @@ typedef struct WlkImageData {
 /** Copies an image of the view's last headless frame. [C] NOT_READY before the first and after one
  *  that failed. Errors: WRONG_STATE, INVALID_ARGUMENT, DEVICE_LOST (nobody knows what it holds). */
 WLK_API WlkResult wlkReadback(WlkContext context, WlkView view, const WlkImageData* image);
-
-/* --------------------------------------------------------------------------------- statistics */
-
-enum {
-  WLK_PASS_LIGHT_SLICES = 1,
-  WLK_PASS_EYE_SLICES = 2,
-  WLK_PASS_COMPOSITE = 3,
-  /** Light of the sky scattered more than once, by direction. */
-  WLK_PASS_SKY_TABLE = 4,
-  /** Light inside a volume that was scattered before (WLK_SCATTERING_ALL_ORDERS). */
-  WLK_PASS_VOLUME_LIGHT = 5,
-  /** A map of the volumes' shadow: the engine's (welkin_vulkan.h), or the view's own. */
-  WLK_PASS_SHADOW_MAP = 6,
-  /** Light of sky and ground inside a volume (wlkSetAmbient). */
-  WLK_PASS_VOLUME_AMBIENT = 7,
-  /** Aerial perspective for the engine's transparents, its march through volumes included. */
-  WLK_PASS_AERIAL_PERSPECTIVE = 8,
-  /** The volumes' mean distance per pixel (welkin_vulkan.h). */
-  WLK_PASS_VOLUME_DISTANCE = 9,
-  /** Of a cloud surface: its light maps, and what pixels see of it. */
-  WLK_PASS_SURFACE_LIGHT = 10,
-  WLK_PASS_SURFACE = 11
-};
-
-/** Why a pass was recorded or not. */
-enum {
-  WLK_REASON_NEEDED = 0,
-  WLK_REASON_LAYER_OFF = 1,
-  WLK_REASON_NOTHING_TO_DRAW = 2,
-  WLK_REASON_ZERO_DENSITY = 3,
-  WLK_REASON_OUTSIDE_VIEW = 4,
-  WLK_REASON_NO_LIGHT = 5,
-  WLK_REASON_NO_SKIP_FLAG = 6,
-  /** What the pass depends on is as in an earlier frame, whose result is used. */
-  WLK_REASON_UNCHANGED = 7,
-  /** A part is computed, or complete light fades in (WlkQuality::lightFrames). */
-  WLK_REASON_SPREAD = 8
-};
-
-/** One line of the plan: a pass over one volume (or over the picture), all its batches together. */
-typedef struct WlkPassStats {
-  /** "light slices" and so on. */
-  char name[WLK_NAME_SIZE];
-  /** WLK_PASS_*. */
-  uint32_t pass;
-  /** 1 if commands were recorded, 0 if skipped. */
-  uint32_t recorded;
-  /** WLK_REASON_*. */
-  uint32_t reason;
-  /** Dispatches or draws recorded. */
-  uint32_t commands;
-  /** The volume, {0} for passes over the picture; for those of a cloud surface `id` is its. */
-  WlkVolume volume;
-  /** Shader invocations (threads) recorded. */
-  uint64_t invocations;
-  /** GPU time of the newest finished frame, ns; 0 before one finished. */
-  uint64_t gpuTime_ns;
-} WlkPassStats;
-
-/** What was recorded for a view's frame, and what the context holds. */
-typedef struct WlkFrameStats {
-  uint32_t sType;
-  uint32_t structSize;
-  const void* next;
-  uint64_t frameIndex;
-  uint32_t dispatches;
-  uint32_t draws;
-  uint32_t barriers;
-  uint32_t descriptorWrites;
-  uint64_t bytesUploaded;
-  /** Bytes of device memory and of host memory that the context holds. */
-  uint64_t deviceMemory;
-  uint64_t hostMemory;
-  /** Pixels and froxels of the newest finished frame not finite before the final guard. */
-  uint64_t nonFinitePixels;
-} WlkFrameStats;
-
-/** Statistics of the view's last recorded frame. `passCount` holds the room in `passes` and
- *  receives the number of passes; `stride` is the caller's sizeof(WlkPassStats); `passes` may be
- *  null. [C] NOT_READY before the first frame, INCOMPLETE if the array was too short. Errors:
- *  INVALID_ARGUMENT (stride too short). */
-WLK_API WlkResult wlkGetFrameStats(WlkContext context, WlkView view, WlkFrameStats* stats,
-                                   uint32_t* passCount, uint32_t stride, WlkPassStats* passes);
-
-/** "WLK_REASON_ZERO_DENSITY" and so on. [F] */
-WLK_API const char* wlkReasonName(uint32_t reason);
-
-/* --------------------------------------------------------------------------- estimate of error */
-
-/** What keeps a picture from the truth. */
-enum {
-  /** Sky light: with WLK_SCATTERING_SINGLE what was scattered more than once or by the ground. */
-  WLK_APPROXIMATION_SKY = 0,
-  /** Light scattered more than once in the fog layer, by two Legendre terms. */
-  WLK_APPROXIMATION_FOG = 1,
-  /** Light inside volumes; their shadows on air and ground, ambient light: where not asked for. */
-  WLK_APPROXIMATION_VOLUME_SCATTERING = 2,
-  /** Slabs and light-buffer texels. */
-  WLK_APPROXIMATION_VOLUME_SLICES = 3
-};
-#define WLK_MAX_APPROXIMATIONS 8
-
-/** Relative errors of the radiance against all orders of scattering: root mean square over the
- *  picture's pixels and colours of (radiance - truth) / truth, without opaque surfaces. */
-typedef struct WlkErrorEstimate {
-  uint32_t sType;
-  uint32_t structSize;
-  const void* next;
-  /** All approximations together, [0, 1]. */
-  float relativeError;
-  /** WLK_APPROXIMATION_* of the largest part. */
-  uint32_t dominant;
-  /** By WLK_APPROXIMATION_*; the sum of their squares is that of relativeError. */
-  float part[WLK_MAX_APPROXIMATIONS];
-} WlkErrorEstimate;
-
-/** Estimates the error of the view's next frame from the scene, the camera and the quality: rules
- *  fitted to measurements (docs/accuracy-and-performance.md), right within a factor of 2 for most
- *  scenes, the part of the slabs within 4. A volume in an engine's image counts as filled with 1,
- *  uploads by parts as if the rest kept its mean. Renders nothing. [C] */
-WLK_API WlkResult wlkGetErrorEstimate(WlkContext context, WlkView view, WlkErrorEstimate* estimate);
-
-/** "WLK_APPROXIMATION_SKY" and so on. [F] */
-WLK_API const char* wlkApproximationName(uint32_t approximation);
 
 #ifdef __cplusplus
 }

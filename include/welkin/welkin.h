@@ -24,8 +24,10 @@
 #define WELKIN_WELKIN_H
 
 #include "core.h"
+#include "output.h"
 #include "query.h"
 #include "scene.h"
+#include "statistics.h"
 #include "surface.h"
 #include "view.h"
 

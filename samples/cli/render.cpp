@@ -111,7 +111,7 @@ void run(const RenderOptions& options) {
   host::check(wlkPrepare(context), options.scene, "");
   times.prepare_ms = watch.lap_ms();
 
-  auto targets = host::make<WlkHeadlessTargets>();
+  auto targets = host::make<WlkHeadlessInputs>();
   targets.color = opaque.color.rgba.empty() ? nullptr : opaque.color.rgba.data();
   targets.depth = opaque.depth.values.empty() ? nullptr : opaque.depth.values.data();
   if (!shadow.depth.empty()) {

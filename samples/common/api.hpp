@@ -79,8 +79,8 @@ inline constexpr WlkStructType structType(const WlkQualityState&) {
 inline constexpr WlkStructType structType(const WlkLightShadow&) {
   return WLK_STRUCT_LIGHT_SHADOW;
 }
-inline constexpr WlkStructType structType(const WlkHeadlessTargets&) {
-  return WLK_STRUCT_HEADLESS_TARGETS;
+inline constexpr WlkStructType structType(const WlkHeadlessInputs&) {
+  return WLK_STRUCT_HEADLESS_INPUTS;
 }
 inline constexpr WlkStructType structType(const WlkImageData&) {
   return WLK_STRUCT_IMAGE_DATA;

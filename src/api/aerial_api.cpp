@@ -63,7 +63,7 @@ void importAerial(WlkContext_T& c, const ViewState& view, const WlkVulkanViewTar
   }
   if (!view.aerial) {
     fail(WLK_ERROR_WRONG_STATE, WLK_STRUCT_VULKAN_VIEW_TARGETS, "aerialRadiance",
-         "the view has no aerial perspective: call wlkVulkanSetAerialPerspective");
+         "the view has no aerial perspective: call wlkSetAerialPerspective");
   }
   if (t.aerialRadiance == nullptr || t.aerialTransmittance == nullptr) {
     const char* missing = t.aerialRadiance == nullptr ? "aerialRadiance" : "aerialTransmittance";
@@ -83,13 +83,13 @@ void importAerial(WlkContext_T& c, const ViewState& view, const WlkVulkanViewTar
 
 }  // namespace welkin
 
-WlkResult wlkVulkanSetAerialPerspective(WlkContext context, WlkView view,
-                                        const WlkAerialPerspective* aerial) {
+WlkResult wlkSetAerialPerspective(WlkContext context, WlkView view,
+                                  const WlkAerialPerspective* aerial) {
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
     if (c.mode != WLK_MODE_ENGINE_DEVICE) {
       fail(WLK_ERROR_WRONG_STATE, 0, "context",
-           "wlkVulkanSetAerialPerspective needs an engine-device context");
+           "wlkSetAerialPerspective needs an engine-device context");
     }
     ViewState& state = c.view(view);
     if (aerial == nullptr) {

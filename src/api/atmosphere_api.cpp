@@ -31,15 +31,15 @@ WlkSky checkedSky(const WlkSky* sky) {
 WlkAbsorber checkedAbsorber(const WlkAbsorber* absorber) {
   const WlkAbsorber a = copyStruct(absorber, WLK_STRUCT_ABSORBER);
   checkNoChain(absorber);
-  checkRange3(a.sType, "extinction", a.extinction, 0, 1);
+  checkRange3(a.sType, "absorption", a.absorption, 0, 1);
   checkRange(a.sType, "peakAltitude", a.peakAltitude, 0, 1e5);
   checkRange(a.sType, "halfWidth", a.halfWidth, 100, 1e5);
   return a;
 }
 
 bool absorbs(const std::optional<WlkAbsorber>& absorber) {
-  return absorber && (absorber->extinction[0] > 0 || absorber->extinction[1] > 0 ||
-                      absorber->extinction[2] > 0);
+  return absorber && (absorber->absorption[0] > 0 || absorber->absorption[1] > 0 ||
+                      absorber->absorption[2] > 0);
 }
 
 WlkLight checkedLight(const WlkLight* light) {

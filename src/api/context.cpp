@@ -162,8 +162,8 @@ WlkContext_T::~WlkContext_T() {
     return;
   }
   if (headless) {
-    // Of a lost device, too: what was said to be lost may still run, and the wait returns at once if
-    // nothing does.
+    // Of a lost device, too: what was said to be lost may still run, and the wait returns at once
+    // if nothing does.
     headless->settle();
   }
   for (uint32_t i = 0; i < views.slotCount(); ++i) {

@@ -124,8 +124,8 @@ struct WlkContext_T {
            (air.ambient.mode == WLK_AMBIENT_AUTOMATIC && (air.sky || fogActive()));
   }
   bool absorbs() const {
-    return air.absorber && (air.absorber->extinction[0] > 0 || air.absorber->extinction[1] > 0 ||
-                            air.absorber->extinction[2] > 0);
+    return air.absorber && (air.absorber->absorption[0] > 0 || air.absorber->absorption[1] > 0 ||
+                            air.absorber->absorption[2] > 0);
   }
   bool shapedDisk() const {
     return std::any_of(air.lights.begin(), air.lights.begin() + air.lightCount,

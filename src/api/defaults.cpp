@@ -78,7 +78,7 @@ WlkFog fog() {
 
 WlkAbsorber absorber() {
   auto a = blank<WlkAbsorber>(WLK_STRUCT_ABSORBER);
-  assign(a.extinction, {2.7e-6f, 1.7e-6f, 8.5e-8f});
+  assign(a.absorption, {2.7e-6f, 1.7e-6f, 8.5e-8f});
   a.peakAltitude = 25000.0f;
   a.halfWidth = 15000.0f;
   return a;
@@ -172,8 +172,8 @@ WlkSkyMapQuery skyMap() {
   return q;
 }
 
-WlkShadowMapInfo shadowMap() {
-  auto m = blank<WlkShadowMapInfo>(WLK_STRUCT_SHADOW_MAP_INFO);
+WlkCloudShadowInfo shadowMap() {
+  auto m = blank<WlkCloudShadowInfo>(WLK_STRUCT_CLOUD_SHADOW_INFO);
   m.width = m.height = 512;
   m.extent[0] = m.extent[1] = 20000;
   m.maxSamples = 512;
@@ -255,9 +255,9 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
       return write(blank<WlkQualityState>(sType), structSize, structure);
     case WLK_STRUCT_FRAME_INFO:
       return write(blank<WlkFrameInfo>(sType), structSize, structure);
-    case WLK_STRUCT_HEADLESS_TARGETS:
-      return write(blank<WlkHeadlessTargets>(sType), structSize, structure,
-                   HEADLESS_TARGETS_FIRST_SIZE);
+    case WLK_STRUCT_HEADLESS_INPUTS:
+      return write(blank<WlkHeadlessInputs>(sType), structSize, structure,
+                   HEADLESS_INPUTS_FIRST_SIZE);
     case WLK_STRUCT_IMAGE_DATA:
       return write(blank<WlkImageData>(sType), structSize, structure);
     case WLK_STRUCT_FRAME_STATS:
@@ -281,10 +281,10 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
     case WLK_STRUCT_VULKAN_VIEW_TARGETS:
       return write(blank<WlkVulkanViewTargets>(sType), structSize, structure,
                    VIEW_TARGETS_FIRST_SIZE);
-    case WLK_STRUCT_SHADOW_MAP_INFO:
+    case WLK_STRUCT_CLOUD_SHADOW_INFO:
       return write(shadowMap(), structSize, structure);
-    case WLK_STRUCT_SHADOW_MAP_STATE:
-      return write(blank<WlkShadowMapState>(sType), structSize, structure);
+    case WLK_STRUCT_CLOUD_SHADOW_STATE:
+      return write(blank<WlkCloudShadowState>(sType), structSize, structure);
     case WLK_STRUCT_AERIAL_PERSPECTIVE:
       return write(aerial(), structSize, structure);
     default:

@@ -13,7 +13,7 @@ void importDistance(WlkContext_T& c, const ViewState& view, const WlkVulkanViewT
   }
   if (!view.volumeDistance) {
     fail(WLK_ERROR_WRONG_STATE, WLK_STRUCT_VULKAN_VIEW_TARGETS, "volumeDistance",
-         "the view does not tell the volumes' distance: call wlkVulkanSetVolumeDistance");
+         "the view does not tell the volumes' distance: call wlkSetVolumeDistance");
   }
   const WlkVulkanImage i = copyStruct(t.volumeDistance, WLK_STRUCT_VULKAN_IMAGE);
   checkNoChain(t.volumeDistance);
@@ -48,13 +48,13 @@ void importDistance(WlkContext_T& c, const ViewState& view, const WlkVulkanViewT
 
 }  // namespace welkin
 
-WlkResult wlkVulkanSetVolumeDistance(WlkContext context, WlkView view, uint32_t enabled) {
+WlkResult wlkSetVolumeDistance(WlkContext context, WlkView view, uint32_t enabled) {
   using namespace welkin;
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
     if (c.mode != WLK_MODE_ENGINE_DEVICE) {
       fail(WLK_ERROR_WRONG_STATE, 0, "context",
-           "wlkVulkanSetVolumeDistance needs an engine-device context");
+           "wlkSetVolumeDistance needs an engine-device context");
     }
     ViewState& state = c.view(view);
     if (enabled > 1) {

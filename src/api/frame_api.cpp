@@ -117,7 +117,7 @@ void readTarget(const vk::Dispatch& vk, VkCommandBuffer commands, const ViewStat
                           view.resources.readback.handle(), 1, &region);
 }
 
-void renderHeadless(WlkContext_T& c, ViewState& view, const WlkHeadlessTargets& targets) {
+void renderHeadless(WlkContext_T& c, ViewState& view, const WlkHeadlessInputs& targets) {
   const vk::Dispatch& vk = c.device->vk();
   ViewTargets images;
   if (targets.lightShadow != nullptr) {
@@ -429,13 +429,13 @@ WlkResult wlkBeginFrame(WlkContext context, const WlkFrameInfo* frame) {
   });
 }
 
-WlkResult wlkRenderHeadless(WlkContext context, WlkView view, const WlkHeadlessTargets* targets) {
+WlkResult wlkRenderHeadless(WlkContext context, WlkView view, const WlkHeadlessInputs* targets) {
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
     ViewState& state = c.view(view);
-    WlkHeadlessTargets value{};
+    WlkHeadlessInputs value{};
     if (targets != nullptr) {
-      value = copyStruct(targets, WLK_STRUCT_HEADLESS_TARGETS, HEADLESS_TARGETS_FIRST_SIZE);
+      value = copyStruct(targets, WLK_STRUCT_HEADLESS_INPUTS, HEADLESS_INPUTS_FIRST_SIZE);
       checkNoChain(targets);
     }
     c.requireDevice("wlkRenderHeadless");

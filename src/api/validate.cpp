@@ -56,8 +56,8 @@ const char* structName(uint32_t sType) {
       return "WlkQualityState";
     case WLK_STRUCT_FRAME_INFO:
       return "WlkFrameInfo";
-    case WLK_STRUCT_HEADLESS_TARGETS:
-      return "WlkHeadlessTargets";
+    case WLK_STRUCT_HEADLESS_INPUTS:
+      return "WlkHeadlessInputs";
     case WLK_STRUCT_IMAGE_DATA:
       return "WlkImageData";
     case WLK_STRUCT_FRAME_STATS:
@@ -78,10 +78,10 @@ const char* structName(uint32_t sType) {
       return "WlkVulkanImage";
     case WLK_STRUCT_VULKAN_VIEW_TARGETS:
       return "WlkVulkanViewTargets";
-    case WLK_STRUCT_SHADOW_MAP_INFO:
-      return "WlkShadowMapInfo";
-    case WLK_STRUCT_SHADOW_MAP_STATE:
-      return "WlkShadowMapState";
+    case WLK_STRUCT_CLOUD_SHADOW_INFO:
+      return "WlkCloudShadowInfo";
+    case WLK_STRUCT_CLOUD_SHADOW_STATE:
+      return "WlkCloudShadowState";
     case WLK_STRUCT_AERIAL_PERSPECTIVE:
       return "WlkAerialPerspective";
     default:

@@ -27,11 +27,11 @@ void checkPointer(const void* pointer, const char* argument);
 // targets before shadow maps.
 constexpr uint32_t CONTEXT_FIRST_SIZE = offsetof(WlkContextInfo, deviceMemoryLimit);
 constexpr uint32_t RAY_BATCH_FIRST_SIZE = offsetof(WlkRayBatch, maxOrder);
-constexpr uint32_t VIEW_FIRST_SIZE = offsetof(WlkViewInfo, color);
+constexpr uint32_t VIEW_FIRST_SIZE = offsetof(WlkViewInfo, colorSpace);
 constexpr uint32_t LIGHT_FIRST_SIZE = offsetof(WlkLight, limbDarkening);
 constexpr uint32_t QUALITY_FIRST_SIZE = offsetof(WlkQuality, volumeCells);
 constexpr uint32_t FOG_FIRST_SIZE = offsetof(WlkFog, medium);
-constexpr uint32_t HEADLESS_TARGETS_FIRST_SIZE = offsetof(WlkHeadlessTargets, lightShadow);
+constexpr uint32_t HEADLESS_INPUTS_FIRST_SIZE = offsetof(WlkHeadlessInputs, lightShadow);
 constexpr uint32_t VIEW_TARGETS_FIRST_SIZE = offsetof(WlkVulkanViewTargets, lightShadow);
 
 // Pointer, sType and structSize of a structure; `size` is this library's sizeof, `firstSize` that

@@ -18,7 +18,7 @@ WlkViewInfo checkedView(const WlkContext_T& c, const WlkViewInfo* info) {
     fail(WLK_ERROR_UNSUPPORTED_FORMAT, v.sType, "targetFormat", "WlkViewInfo::targetFormat is %u",
          v.targetFormat);
   }
-  checkRange(v.sType, "color", v.color, WLK_COLOR_WAVELENGTHS, WLK_COLOR_SRGB);
+  checkRange(v.sType, "colorSpace", v.colorSpace, WLK_COLOR_WAVELENGTHS, WLK_COLOR_LINEAR_SRGB);
   if ((v.layers & ~uint64_t{WLK_LAYER_ALL}) != 0) {
     fail(WLK_ERROR_INVALID_ARGUMENT, v.sType, "layers", "WlkViewInfo::layers has unknown bits");
   }
@@ -154,7 +154,7 @@ WlkQuality checkedQuality(const WlkQuality* quality) {
     checkRange(q.sType, "lightBufferSize", q.lightBufferSize, 0, 0);
   }
   constexpr uint64_t FLAGS =
-      WLK_QUALITY_NO_SKIP | WLK_QUALITY_VOLUME_SHADOWS | WLK_QUALITY_LIGHT_SHADOWS;
+      WLK_QUALITY_FLAG_NO_SKIP | WLK_QUALITY_FLAG_VOLUME_SHADOWS | WLK_QUALITY_FLAG_LIGHT_SHADOWS;
   if ((q.flags & ~FLAGS) != 0) {
     fail(WLK_ERROR_INVALID_ARGUMENT, q.sType, "flags", "WlkQuality::flags has unknown bits");
   }

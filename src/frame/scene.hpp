@@ -326,13 +326,13 @@ struct ShadowMapResources {
 
 struct ShadowMapState {
   explicit ShadowMapState(std::pmr::memory_resource* memory) : resources(memory) {}
-  WlkShadowMapInfo info{};
+  WlkCloudShadowInfo info{};
   ShadowMapResources resources;
   bool prepared = false;
   VkImage image = VK_NULL_HANDLE;  // that holds it
   uint64_t lastFrame = 0;          // 0: none recorded yet
   uint64_t gpuTime_ns = 0;
-  WlkShadowMapState last{};
+  WlkCloudShadowState last{};
 };
 
 // A volume of the context that the map may show.

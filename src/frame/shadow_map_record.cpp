@@ -83,8 +83,8 @@ class ShadowRecorder {
     const uint32_t content = map.info.content;
     push_.width = map.info.width;
     push_.height = map.info.height;
-    push_.flags = (content == WLK_SHADOW_TRANSMITTANCE ? interface_::SHADOW_COLOR : 0) |
-                  (content == WLK_SHADOW_LAYER ? interface_::SHADOW_LAYER : 0) |
+    push_.flags = (content == WLK_CLOUD_SHADOW_TRANSMITTANCE ? interface_::SHADOW_COLOR : 0) |
+                  (content == WLK_CLOUD_SHADOW_LAYER ? interface_::SHADOW_LAYER : 0) |
                   (half ? interface_::SHADOW_HALF : 0) |
                   (input.scattered ? interface_::SHADOW_ABSORBED : 0);
   }
@@ -289,13 +289,13 @@ class ShadowRecorder {
   std::pmr::vector<char>& now_ = r_.now;
   ShadowLayout layout_;
   ShadowConstants push_{};
-  WlkShadowMapState result_{};
+  WlkCloudShadowState result_{};
   bool external_ = false;
 };
 
 }  // namespace
 
-void prepareShadowMap(vk::Device& device, vk::Pipelines& pipelines, const WlkShadowMapInfo& info,
+void prepareShadowMap(vk::Device& device, vk::Pipelines& pipelines, const WlkCloudShadowInfo& info,
                       uint32_t volumeCount, uint32_t framesInFlight,
                       std::span<const uint32_t> fieldKinds, ShadowMapResources& made) {
   pipelines.prepare(resolveKey());
@@ -309,7 +309,7 @@ void prepareShadowMap(vk::Device& device, vk::Pipelines& pipelines, const WlkSha
         std::max<VkDeviceSize>(device.properties().limits.minUniformBufferOffsetAlignment, 16));
     made.uniforms = vk::Buffer(device, made.stride * (volumeCount + 1) * framesInFlight,
                                VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, true);
-    const VkDeviceSize floats = info.content == WLK_SHADOW_LAYER ? 4 : 1;
+    const VkDeviceSize floats = info.content == WLK_CLOUD_SHADOW_LAYER ? 4 : 1;
     const VkDeviceSize bytes = VkDeviceSize{info.width} * info.height * floats * sizeof(float);
     if (bytes > device.properties().limits.maxStorageBufferRange) {
       fail(WLK_ERROR_LIMIT_EXCEEDED, info.sType, "width",

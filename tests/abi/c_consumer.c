@@ -322,9 +322,9 @@ static void deviceFunctions(WlkContext context) {
   REQUIRE(wlkVulkanForgetImage(context, VK_NULL_HANDLE) < 0);
   REQUIRE(wlkVulkanCmdUpdate(context, NULL) < 0);
   REQUIRE(wlkVulkanCmdRenderView(context, NULL, view, &targets) < 0);
-  EXPECT(WLK_ERROR_WRONG_STATE, wlkVulkanSetAerialPerspective(context, view, &aerial));
+  EXPECT(WLK_ERROR_WRONG_STATE, wlkSetAerialPerspective(context, view, &aerial));
   REQUIRE(targets.volumeDistance == NULL);
-  EXPECT(WLK_ERROR_WRONG_STATE, wlkVulkanSetVolumeDistance(context, view, 1));
+  EXPECT(WLK_ERROR_WRONG_STATE, wlkSetVolumeDistance(context, view, 1));
 }
 
 int main(void) {

@@ -93,7 +93,7 @@ int main() {
   makeSetsTheHead<WlkErrorInfo, WlkContextInfo, WlkHeadlessInfo, WlkCapabilities, WlkPlanet, WlkSky,
                   WlkLight, WlkFog, WlkAbsorber, WlkAmbient, WlkMediumInfo, WlkMediumOptics,
                   WlkVolumeInfo, WlkVolumeUpload, WlkVolumeBricks, WlkVolumeState, WlkViewInfo,
-                  WlkCamera, WlkQuality, WlkQualityState, WlkFrameInfo, WlkHeadlessTargets,
+                  WlkCamera, WlkQuality, WlkQualityState, WlkFrameInfo, WlkHeadlessInputs,
                   WlkImageData, WlkFrameStats, WlkRayBatch, WlkPhaseQuery, WlkSkyMapQuery,
                   WlkVulkanDeviceInfo, WlkVulkanRequirements, WlkVulkanImage,
                   WlkVulkanViewTargets>();

@@ -14,7 +14,8 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 INCLUDE = HERE.parent.parent / "include"
-HEADERS = ("core.h", "scene.h", "surface.h", "view.h", "query.h", "welkin_vulkan.h")
+HEADERS = ("core.h", "scene.h", "surface.h", "view.h", "output.h", "statistics.h", "query.h",
+           "welkin_vulkan.h")
 NODE = "WELKIN_0.1"
 
 BANNER = """/* SPDX-License-Identifier: MIT

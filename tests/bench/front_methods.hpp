@@ -61,7 +61,8 @@ std::vector<Method> methodsFor(const Case& one, bool hasVolumes, bool quick);
 /// The four levels.
 std::vector<Method> levelMethods();
 
-/// The four levels with the other resolution of volumes than their own: half for full, full for half.
+/// The four levels with the other resolution of volumes than their own: half for full, full for
+/// half.
 std::vector<Method> otherResolution();
 
 /// Slabs and texels of the four levels with forward scattering.

@@ -269,7 +269,7 @@ class Run {
     const WlkView view = views_.pick(input_);
     Framed<WlkFrameInfo> frame(input_);
     (void)checkResult(wlkBeginFrame(context_, frame.get()));
-    Framed<WlkHeadlessTargets> targets(input_);
+    Framed<WlkHeadlessInputs> targets(input_);
     targets.value.color = nullptr;
     targets.value.depth = nullptr;
     targets.value.lightShadow = nullptr;

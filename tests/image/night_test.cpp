@@ -119,7 +119,7 @@ class Stars : public ::testing::Test {
     look(scene, eye);
     const std::vector<float> color = starField();
     const std::vector<float> sky(size_t{STAR_WIDTH} * STAR_HEIGHT, 0.0f);  // reversed depth: far
-    WlkHeadlessTargets targets = make<WlkHeadlessTargets>();
+    WlkHeadlessInputs targets = make<WlkHeadlessInputs>();
     targets.color = color.data();
     const Image open = scene.render(&targets);
     targets.depth = sky.data();

@@ -131,15 +131,15 @@ TEST(StructHeader, OfViewAndFrameStructuresIsCheckedBeforeAnythingChanges) {
   const auto setQuality = [&](const WlkQuality* p) { return wlkSetQuality(c, view, p); };
   const auto updateView = [&](const WlkViewInfo* p) { return wlkUpdateView(c, view, p); };
   const auto readback = [&](const WlkImageData* p) { return wlkReadback(c, view, p); };
-  const auto render = [&](const WlkHeadlessTargets* p) { return wlkRenderHeadless(c, view, p); };
+  const auto render = [&](const WlkHeadlessInputs* p) { return wlkRenderHeadless(c, view, p); };
   abuseHeader<WlkCamera>(camera, setCamera);
   abuseHeader<WlkQuality>(quality, setQuality);
   abuseHeader<WlkViewInfo>(info, updateView);
   abuseHeader<WlkImageData>(image, readback);
-  abuseHeader<WlkHeadlessTargets>(make<WlkHeadlessTargets>(), render);
+  abuseHeader<WlkHeadlessInputs>(make<WlkHeadlessInputs>(), render);
   victim.expectUnchanged();
   expectLongerAccepted<WlkImageData>(image, readback);
-  expectLongerAccepted<WlkHeadlessTargets>(make<WlkHeadlessTargets>(), render);
+  expectLongerAccepted<WlkHeadlessInputs>(make<WlkHeadlessInputs>(), render);
   expectLongerAccepted<WlkCamera>(camera, setCamera);
   expectLongerAccepted<WlkQuality>(quality, setQuality);
   expectLongerAccepted<WlkViewInfo>(info, updateView);

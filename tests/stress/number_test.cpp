@@ -103,10 +103,10 @@ TEST(NumberFields, OfAbsorbersAreRefusedOrHarmless) {
   const WlkContext c = VictimScene::get().scene.context;
   auto absorber = make<WlkAbsorber>();
   absorber.peakAltitude = 15000.0f;
-  absorber.extinction[1] = 1e-4f;
+  absorber.absorption[1] = 1e-4f;
   abuseNumbers<WlkAbsorber>(
       absorber,
-      {FLOATS(WlkAbsorber, extinction, 3), FLOATS(WlkAbsorber, peakAltitude, 1),
+      {FLOATS(WlkAbsorber, absorption, 3), FLOATS(WlkAbsorber, peakAltitude, 1),
        FLOATS(WlkAbsorber, halfWidth, 1)},
       [&](const WlkAbsorber& p) { return wlkSetAbsorber(c, &p); },
       [&] {

@@ -228,7 +228,7 @@ void SceneBuilder::setQuality(uint32_t level, uint64_t flags) const {
   check(wlkSetQuality(context, view, &quality));
 }
 
-Image HeadlessScene::render(const WlkHeadlessTargets* targets) const {
+Image HeadlessScene::render(const WlkHeadlessInputs* targets) const {
   check(wlkPrepare(context));
   check(wlkRenderHeadless(context, view, targets));
   return read(options_.composite == WLK_COMPOSITE_SEPARATE ? WLK_IMAGE_RADIANCE : WLK_IMAGE_COLOR);

@@ -149,7 +149,7 @@ TEST(Absorber, TakesItsTriangleOfLightAndNoMore) {
   for (const double h : {0.0, 10.0, 17.0, 25.0, 33.0, 39.0}) {
     const Rgb depth = depthAbove(scene, 1e3 * h);
     for (size_t c = 0; c < 3; ++c) {
-      const double peak = static_cast<double>(ozone.extinction[c]);
+      const double peak = static_cast<double>(ozone.absorption[c]);
       EXPECT_NEAR(depth[c], 1e3 * peak * over(h), DEPTH * 1e3 * peak * over(0)) << h;
     }
   }

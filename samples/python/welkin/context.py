@@ -163,7 +163,7 @@ class Context:
             self.SetQuality(view[0], quality if quality is not None else make("WlkQuality"))
             self.Prepare()
             kept = []
-            targets = make("WlkHeadlessTargets")
+            targets = make("WlkHeadlessInputs")
             for name, data, shape in (("color", color, (height, width, 4)),
                                       ("depth", depth, (height, width))):
                 if data is not None:
