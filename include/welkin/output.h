@@ -52,7 +52,8 @@ WLK_API WlkResult wlkSetVolumeDistance(WlkContext context, WlkView view, uint32_
 /* ------------------------------------------------------------------------------- cloud shadows */
 
 /** A map of what volumes take from a light, for the engine's own surfaces. It holds no depth; the
- *  engine's map of opaque surfaces (WlkLightShadow) is another thing. */
+ *  engine's map of opaque surfaces (WlkLightShadow) is another thing. Volumes are in it, cloud
+ *  surfaces are not. */
 typedef struct WlkCloudShadow {
   uint64_t id;
 } WlkCloudShadow;
@@ -98,10 +99,11 @@ typedef struct WlkCloudShadowInfo {
  *  engine-device mode. Needs wlkPrepare. */
 WLK_API WlkResult wlkCreateCloudShadow(WlkContext context, const WlkCloudShadowInfo* info,
                                        WlkCloudShadow* map);
-/** Changes it, for example where it lies. Only another size or content needs wlkPrepare. [C] */
+/** Changes it, for example where it lies. Only another size or content needs wlkPrepare. [C]
+ * Errors: INVALID_HANDLE, INVALID_ARGUMENT. */
 WLK_API WlkResult wlkSetCloudShadow(WlkContext context, WlkCloudShadow map,
                                     const WlkCloudShadowInfo* info);
-/** Destroys the map, not the images it was written to. [C] */
+/** Destroys the map, not the images it was written to. [C] Errors: INVALID_HANDLE. */
 WLK_API WlkResult wlkDestroyCloudShadow(WlkContext context, WlkCloudShadow map);
 
 /** How to read the map that was recorded last, and what that cost. */

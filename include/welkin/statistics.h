@@ -13,8 +13,11 @@ extern "C" {
 #endif
 
 enum {
+  /** Light that reaches each slab of a volume. */
   WLK_PASS_LIGHT_SLICES = 1,
+  /** What the eye sees of a volume. */
   WLK_PASS_EYE_SLICES = 2,
+  /** Sky, fog and all others over the engine's picture. */
   WLK_PASS_COMPOSITE = 3,
   /** Light of the sky scattered more than once, by direction. */
   WLK_PASS_SKY_TABLE = 4,
@@ -35,12 +38,19 @@ enum {
 
 /** Why a pass was recorded or not. */
 enum {
+  /** Recorded: the picture depends on it. */
   WLK_REASON_NEEDED = 0,
+  /** WlkViewInfo::layers is without it. */
   WLK_REASON_LAYER_OFF = 1,
+  /** There is nothing of its kind. */
   WLK_REASON_NOTHING_TO_DRAW = 2,
+  /** No value above 0, or an extinction of 0. */
   WLK_REASON_ZERO_DENSITY = 3,
+  /** The camera does not see it. */
   WLK_REASON_OUTSIDE_VIEW = 4,
+  /** No light reaches it. */
   WLK_REASON_NO_LIGHT = 5,
+  /** Recorded for WLK_QUALITY_FLAG_NO_SKIP alone. */
   WLK_REASON_NO_SKIP_FLAG = 6,
   /** What the pass depends on is as in an earlier frame, whose result is used. */
   WLK_REASON_UNCHANGED = 7,
@@ -60,8 +70,9 @@ typedef struct WlkPassStats {
   uint32_t reason;
   /** Dispatches or draws recorded. */
   uint32_t commands;
-  /** The volume, {0} for passes over the picture; for those of a cloud surface `id` is its. */
+  /** The volume or the cloud surface that it is about; {0} where it is about none. */
   WlkVolume volume;
+  WlkSurface surface;
   /** Shader invocations (threads) recorded. */
   uint64_t invocations;
   /** GPU time of the newest finished frame, ns; 0 before one finished. */
@@ -112,7 +123,8 @@ enum {
 #define WLK_MAX_APPROXIMATIONS 8
 
 /** Relative errors of the radiance against all orders of scattering: root mean square over the
- *  picture's pixels and colours of (radiance - truth) / truth, without opaque surfaces. */
+ *  picture's pixels and colours of (radiance - truth) / truth, without opaque surfaces. Cloud
+ * surfaces are not in it, nor does WLK_CONTROL_ERROR look at them. */
 typedef struct WlkErrorEstimate {
   uint32_t sType;
   uint32_t structSize;
@@ -121,14 +133,15 @@ typedef struct WlkErrorEstimate {
   float relativeError;
   /** WLK_APPROXIMATION_* of the largest part. */
   uint32_t dominant;
-  /** By WLK_APPROXIMATION_*; the sum of their squares is that of relativeError. */
+  /** By WLK_APPROXIMATION_*; relativeError is the root of the sum of their squares, at most 1. */
   float part[WLK_MAX_APPROXIMATIONS];
 } WlkErrorEstimate;
 
 /** Estimates the error of the view's next frame from the scene, the camera and the quality: rules
  *  fitted to measurements (docs/accuracy-and-performance.md), right within a factor of 2 for most
  *  scenes, the part of the slabs within 4. A volume in an engine's image counts as filled with 1,
- *  uploads by parts as if the rest kept its mean. Renders nothing. [C] */
+ *  uploads by parts as if the rest kept its mean. Renders nothing. [C] Errors: INVALID_HANDLE,
+ *  UNKNOWN_STRUCT. */
 WLK_API WlkResult wlkGetErrorEstimate(WlkContext context, WlkView view, WlkErrorEstimate* estimate);
 
 /** "WLK_APPROXIMATION_SKY" and so on. [F] */

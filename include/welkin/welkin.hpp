@@ -7,10 +7,9 @@
  *   WlkSky sky = welkin::make<WlkSky>();
  *   welkin::check(wlkSetSky(context, &sky));
  *
- * Owners move and do not copy. A context must outlive the views, volumes and media made from it,
- * and a medium the volumes that use it; declaring them in that order is enough. Constructors and
- * check() throw welkin::Error; each owner's create() returns the WlkResult instead, and with
- * WELKIN_NO_EXCEPTIONS defined only these remain.
+ * Owners move and do not copy. A context must outlive what was made from it; declaring it first is
+ * enough. Constructors and check() throw welkin::Error; each owner's create() returns the WlkResult
+ * instead, and with WELKIN_NO_EXCEPTIONS defined only these remain.
  */
 #ifndef WELKIN_WELKIN_HPP
 #define WELKIN_WELKIN_HPP
@@ -44,6 +43,7 @@ WELKIN_STRUCT_TYPE(::WlkErrorInfo, WLK_STRUCT_ERROR_INFO);
 WELKIN_STRUCT_TYPE(::WlkContextInfo, WLK_STRUCT_CONTEXT_INFO);
 WELKIN_STRUCT_TYPE(::WlkHeadlessInfo, WLK_STRUCT_HEADLESS_INFO);
 WELKIN_STRUCT_TYPE(::WlkCapabilities, WLK_STRUCT_CAPABILITIES);
+WELKIN_STRUCT_TYPE(::WlkLogMessage, WLK_STRUCT_LOG_MESSAGE);
 WELKIN_STRUCT_TYPE(::WlkPlanet, WLK_STRUCT_PLANET);
 WELKIN_STRUCT_TYPE(::WlkSky, WLK_STRUCT_SKY);
 WELKIN_STRUCT_TYPE(::WlkLight, WLK_STRUCT_LIGHT);
@@ -142,7 +142,7 @@ class Context {
   Context() noexcept = default;
 #ifndef WELKIN_NO_EXCEPTIONS
   explicit Context(const WlkContextInfo& info) {
-    check(wlkCreateContext(&info, &handle_));
+    check(wlkCreateContext(WLK_API_VERSION, &info, &handle_));
   }
 #endif
   Context(Context&& other) noexcept : handle_(other.release()) {}
@@ -162,7 +162,7 @@ class Context {
   /** Makes a context in place of the one held; on failure the old one stays. */
   WlkResult create(const WlkContextInfo& info) {
     WlkContext made = nullptr;
-    const WlkResult result = wlkCreateContext(&info, &made);
+    const WlkResult result = wlkCreateContext(WLK_API_VERSION, &info, &made);
     if (result >= 0) {
       reset();
       handle_ = made;

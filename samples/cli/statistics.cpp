@@ -40,6 +40,7 @@ Ordered passesOf(const std::vector<WlkPassStats>& passes) {
                     {"reason", wlkReasonName(pass.reason)},
                     {"commands", pass.commands},
                     {"volume", pass.volume.id},
+                    {"surface", pass.surface.id},
                     {"invocations", pass.invocations},
                     {"gpuTime_ns", pass.gpuTime_ns}});
   }

@@ -133,7 +133,7 @@ using ContextPtr = std::unique_ptr<WlkContext_T, ContextDeleter>;
 /// Counts what the library logs as error or warning, and repeats it on stderr.
 struct LogCounter {
   uint32_t problems = 0;
-  static void receive(void* user, uint32_t severity, const char* text);
+  static void receive(void* user, const WlkLogMessage* message);
 };
 
 /// A context without Vulkan.

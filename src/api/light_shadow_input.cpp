@@ -38,6 +38,7 @@ void stageShadowDepth(WlkContext_T& c, ViewState& view, const WlkHeadlessInputs&
   checkRange(type, "shadowWidth", targets.shadowWidth, 1, 8192);
   checkRange(type, "shadowHeight", targets.shadowHeight, 1, 8192);
   const size_t values = size_t{targets.shadowWidth} * targets.shadowHeight * cascades;
+  checkRoom(type, "shadowDepthSize", targets.shadowDepthSize, values * sizeof(float));
   for (size_t i = 0; i < values; ++i) {
     if (!std::isfinite(targets.shadowDepth[i])) {
       fail(WLK_ERROR_INVALID_ARGUMENT, type, "shadowDepth", "shadowDepth[%zu] is not finite", i);

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "api/context.hpp"
+#include "api/engine_image.hpp"
 
 namespace {
 
@@ -41,27 +42,15 @@ bool isHalf(VkFormat format) {
 
 WlkVulkanImage checkedImage(const WlkContext_T& c, const WlkVulkanImage* image,
                             const WlkCloudShadowInfo& info) {
-  const WlkVulkanImage i = copyStruct(image, WLK_STRUCT_VULKAN_IMAGE);
-  checkNoChain(image);
-  if (i.image == VK_NULL_HANDLE) {
-    fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, "image", "WlkVulkanImage::image is null");
-  }
-  if (i.width != info.width || i.height != info.height) {
-    fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, "image",
-         "the image has %u x %u texels, the shadow map %u x %u", i.width, i.height, info.width,
-         info.height);
-  }
-  if (i.after.layout == VK_IMAGE_LAYOUT_UNDEFINED ||
-      i.after.layout == VK_IMAGE_LAYOUT_PREINITIALIZED) {
-    fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, "after", "after.layout must be a real layout");
-  }
+  const WlkVulkanImage i = checkedEngineImage(image, "image");
+  checkImageSize(i, "image", "cloud shadow", info.width, info.height);
   const bool depth = info.content == WLK_CLOUD_SHADOW_OPTICAL_DEPTH;
   const bool fits = depth ? i.format == VK_FORMAT_R16_SFLOAT || i.format == VK_FORMAT_R32_SFLOAT
                           : i.format == VK_FORMAT_R16G16B16A16_SFLOAT ||
                                 i.format == VK_FORMAT_R32G32B32A32_SFLOAT;
   if (!fits) {
     fail(WLK_ERROR_UNSUPPORTED_FORMAT, i.sType, "format",
-         "shadow maps of content %u have %s or %s_SFLOAT, not VkFormat %d", info.content,
+         "cloud shadows of content %u have %s or %s_SFLOAT, not VkFormat %d", info.content,
          depth ? "R16" : "R16G16B16A16", depth ? "R32" : "R32G32B32A32",
          static_cast<int>(i.format));
   }
@@ -94,8 +83,7 @@ void gatherCasters(WlkContext_T& c) {
     caster.state = volume;
     for (uint32_t f = 0; f < volume->fieldCount; ++f) {
       if (volume->fields[f].external) {
-        caster.externalViews[f] = importView(c, *volume->fields[f].external, VK_IMAGE_VIEW_TYPE_3D,
-                                             VK_IMAGE_ASPECT_COLOR_BIT);
+        caster.externalViews[f] = importView(c, *volume->fields[f].external, VK_IMAGE_VIEW_TYPE_3D);
       }
     }
     c.shadowCasters.push_back(caster);  // reserved
@@ -190,18 +178,14 @@ WlkResult wlkVulkanCmdRenderCloudShadow(WlkContext context, VkCommandBuffer comm
       fail(WLK_ERROR_NOT_PREPARED, 0, "map", "call wlkPrepare before recording");
     }
     if (state.lastFrame == c.frameIndex) {
-      fail(WLK_ERROR_WRONG_STATE, 0, "map", "the shadow map was recorded in this frame already");
+      fail(WLK_ERROR_WRONG_STATE, 0, "map", "the cloud shadow was recorded in this frame already");
     }
     if (!everythingUploaded(c)) {
-      fail(WLK_ERROR_WRONG_STATE, 0, "context", "record wlkVulkanCmdUpdate before shadow maps");
+      fail(WLK_ERROR_WRONG_STATE, 0, "context", "record wlkVulkanCmdUpdate before cloud shadows");
     }
     harvestShadowMap(*c.device, state, c.completedFrame);
     gatherCasters(c);
-    TargetImage target;
-    target.image = value.image;
-    target.view = importView(c, value, VK_IMAGE_VIEW_TYPE_2D, VK_IMAGE_ASPECT_COLOR_BIT);
-    target.before = value.before;
-    target.after = value.after;
+    const TargetImage target = importTarget(c, value, VK_IMAGE_VIEW_TYPE_2D);
     ShadowMapInput input;
     input.light = lightOf(c, state.info.light);
     input.up =
@@ -221,7 +205,7 @@ WlkResult wlkGetCloudShadowState(WlkContext context, WlkCloudShadow map,
   return guarded([&]() -> WlkResult {
     WlkContext_T& c = checkContext(context);
     ShadowMapState& from = mapOf(c, map);
-    checkOutput(state, WLK_STRUCT_CLOUD_SHADOW_STATE, sizeof *state);
+    const WlkCloudShadowState head = startOutput(state, WLK_STRUCT_CLOUD_SHADOW_STATE);
     if (from.lastFrame == 0) {
       return WLK_NOT_READY;
     }
@@ -229,11 +213,11 @@ WlkResult wlkGetCloudShadowState(WlkContext context, WlkCloudShadow map,
       harvestShadowMap(*c.device, from, c.completedFrame);
     }
     WlkCloudShadowState value = from.last;
-    value.sType = state->sType;
-    value.structSize = state->structSize;
+    value.sType = head.sType;
+    value.structSize = head.structSize;
     value.next = nullptr;
     value.gpuTime_ns = from.gpuTime_ns;
-    std::memcpy(state, &value, sizeof value);
+    finishOutput(value, state);
     return WLK_SUCCESS;
   });
 }

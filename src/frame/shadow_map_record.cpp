@@ -166,7 +166,9 @@ class ShadowRecorder {
 
   bool unchanged() const {
     // The engine may have written its volume's image since.
-    return !external_ && map_.image == target_.image && r_.key == now_ &&
+    return !external_ && map_.image == target_.image &&
+           map_.mipLevel == target_.range.baseMipLevel &&
+           map_.layer == target_.range.baseArrayLayer && r_.key == now_ &&
            target_.before.layout != VK_IMAGE_LAYOUT_UNDEFINED;
   }
 
@@ -219,6 +221,8 @@ class ShadowRecorder {
     r_.slots[in_.slot].frameIndex = in_.frameIndex;
     result_.recorded = 1;
     map_.image = target_.image;
+    map_.mipLevel = target_.range.baseMipLevel;
+    map_.layer = target_.range.baseArrayLayer;
     std::swap(r_.key, now_);
     if (external_) {
       r_.key.clear();  // what was uploaded may be back in the next frame
@@ -274,7 +278,7 @@ class ShadowRecorder {
   }
 
   void image(const WlkVulkanImageState& from, const WlkVulkanImageState& to) {
-    imageBarrier(vk_, commands_, target_.image, target_.barrierAspect, from, to);
+    imageBarrier(vk_, commands_, target_.image, target_.range, from, to);
     result_.barriers += 1;
   }
 

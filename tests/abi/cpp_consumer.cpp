@@ -95,6 +95,8 @@ int main() {
                   WlkVolumeInfo, WlkVolumeUpload, WlkVolumeBricks, WlkVolumeState, WlkViewInfo,
                   WlkCamera, WlkQuality, WlkQualityState, WlkFrameInfo, WlkHeadlessInputs,
                   WlkImageData, WlkFrameStats, WlkRayBatch, WlkPhaseQuery, WlkSkyMapQuery,
+                  WlkLogMessage, WlkLightShadow, WlkErrorEstimate, WlkSurfaceInfo, WlkSurfaceDetail,
+                  WlkAerialPerspective, WlkCloudShadowInfo, WlkCloudShadowState,
                   WlkVulkanDeviceInfo, WlkVulkanRequirements, WlkVulkanImage,
                   WlkVulkanViewTargets>();
   movesOnly<welkin::Context>();

@@ -89,7 +89,7 @@ WlkVulkanDeviceInfo Gpu::info() const {
   info.device = handle();
   info.apiVersion = VK_API_VERSION_1_3;
   info.queueFamilyIndex = device_.family();
-  info.dualSrcBlendEnabled = requirements().dualSrcBlend;
+  info.enabledFeatures = WLK_VULKAN_FEATURE_BLEND;
   return info;
 }
 

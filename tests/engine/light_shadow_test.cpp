@@ -69,6 +69,7 @@ class EngineLightShadow : public testing::Test {
     auto targets = make<WlkHeadlessInputs>();
     targets.lightShadow = &shadow_;
     targets.shadowDepth = map.data();
+    targets.shadowDepthSize = map.size() * sizeof(float);
     targets.shadowWidth = MAP.width;
     targets.shadowHeight = MAP.height;
     return headless_.render(camera_, quantised(format, picture_.color), picture_.depth(CAMERA),

@@ -192,7 +192,9 @@ std::vector<float> Headless::render(const WlkCamera& camera, const std::vector<f
   check(wlkSetCamera(context_, view_, &camera));
   auto targets = shadow != nullptr ? *shadow : make<WlkHeadlessInputs>();
   targets.color = color.empty() ? nullptr : color.data();
+  targets.colorSize = color.size() * sizeof(float);
   targets.depth = depth.empty() ? nullptr : depth.data();
+  targets.depthSize = depth.size() * sizeof(float);
   check(wlkRenderHeadless(context_, view_, &targets));
   std::vector<float> pixels(size_t{4} * width_ * height_);
   auto image = make<WlkImageData>();

@@ -19,9 +19,9 @@ WlkContext makeContext() {
   info.next = &headless;
   info.deviceMemoryLimit = MEMORY_LIMIT;
   WlkContext context = nullptr;
-  if (!checkResult(wlkCreateContext(&info, &context))) {
+  if (!checkResult(wlkCreateContext(WLK_API_VERSION, &info, &context))) {
     info.next = nullptr;
-    (void)checkResult(wlkCreateContext(&info, &context));
+    (void)checkResult(wlkCreateContext(WLK_API_VERSION, &info, &context));
   }
   return context;
 }

@@ -162,7 +162,9 @@ TEST(HalfResolution, LeavesNoHaloAtOpaqueEdges) {
     }
     auto targets = make<WlkHeadlessInputs>();
     targets.depth = depth.data();
+    targets.depthSize = depth.size() * sizeof(float);
     targets.color = color.data();
+    targets.colorSize = color.size() * sizeof(float);
     const Image full = scene.full(&targets);
     const Image half = scene.half(&targets);
     const Image open = scene.full();

@@ -117,13 +117,16 @@ class LightShadowTest : public ::testing::Test {
   Image plain() const {
     auto targets = make<WlkHeadlessInputs>();
     targets.depth = depth.data();
+    targets.depthSize = depth.size() * sizeof(float);
     return scene.render(&targets);
   }
   Image shaded(const WlkLightShadow& shadow, const std::vector<float>& map) const {
     auto targets = make<WlkHeadlessInputs>();
     targets.depth = depth.data();
+    targets.depthSize = depth.size() * sizeof(float);
     targets.lightShadow = &shadow;
     targets.shadowDepth = map.data();
+    targets.shadowDepthSize = map.size() * sizeof(float);
     targets.shadowWidth = targets.shadowHeight = TEXELS;
     Image image = scene.render(&targets);
     EXPECT_EQ(scene.stats().nonFinitePixels, 0u);

@@ -94,6 +94,7 @@ class SkyLightPicture : public ::testing::Test {
     }
     auto targets = make<WlkHeadlessInputs>();
     targets.depth = depth.data();
+    targets.depthSize = depth.size() * sizeof(float);
     const Image picture = scene.render(std::isinf(surface) ? nullptr : &targets);
     auto batch = make<WlkRayBatch>();
     batch.count = static_cast<uint32_t>(rays.size());

@@ -103,6 +103,7 @@ TEST_F(SurfaceImage, EndsAtOpaqueSurfaces) {
                                   static_cast<float>(depth));
   auto targets = make<WlkHeadlessInputs>();
   targets.depth = pixels.data();
+  targets.depthSize = pixels.size() * sizeof(float);
   EXPECT_GT(expectChords({0, 2, 0}, &targets, WALL), 30);
 }
 
@@ -190,6 +191,10 @@ TEST_F(SurfaceImage, SkipsWhatIsNotSeen) {
   scene.setCamera({0, 2, 0}, 180, 0);
   scene.render();
   EXPECT_EQ(pass(WLK_PASS_SURFACE).reason, uint32_t{WLK_REASON_OUTSIDE_VIEW});
+  for (const uint32_t kind : {WLK_PASS_SURFACE, WLK_PASS_SURFACE_LIGHT}) {
+    EXPECT_EQ(pass(kind).surface.id, surface.id);
+    EXPECT_EQ(pass(kind).volume.id, 0u);
+  }
   EXPECT_EQ(pass(WLK_PASS_SURFACE).commands + pass(WLK_PASS_SURFACE_LIGHT).commands, 0u);
   scene.setCamera({0, 2, 0}, 0, 0);
   scene.clearLights();

@@ -30,7 +30,7 @@ uint64_t failEachUntilSuccess(CountingAllocator& memory, const std::function<Wlk
 void expectCreationSurvives(CountingAllocator& memory, const WlkContextInfo& info) {
   WlkContext context = nullptr;
   const uint64_t needed = failEachUntilSuccess(
-      memory, [&] { return wlkCreateContext(&info, &context); },
+      memory, [&] { return wlkCreateContext(WLK_API_VERSION, &info, &context); },
       [&] {
         EXPECT_EQ(context, nullptr);
         EXPECT_EQ(memory.live(), 0u) << "a failed wlkCreateContext leaks";

@@ -75,6 +75,7 @@ TEST(CameraAbuse, EveryUsualProjectionIsAcceptedAndFinite) {
   const std::vector<float> depth(16 * 12, 0.3f);
   auto targets = make<WlkHeadlessInputs>();
   targets.depth = depth.data();
+  targets.depthSize = depth.size() * sizeof(float);
   for (size_t i = 0; i < good.size(); ++i) {
     EXPECT_EQ(project(good[i]), WLK_SUCCESS) << i;
     for (const WlkHeadlessInputs* with : {static_cast<WlkHeadlessInputs*>(nullptr), &targets}) {
@@ -104,9 +105,11 @@ TEST(CameraAbuse, AnyDepthAndColorOfTheEngineGiveAFinitePicture) {
   }
   auto targets = make<WlkHeadlessInputs>();
   targets.depth = depth.data();
+  targets.depthSize = depth.size() * sizeof(float);
   ASSERT_EQ(wlkRenderHeadless(victim.scene.context, victim.scene.view, &targets), WLK_SUCCESS);
   EXPECT_EQ(victim.scene.read(WLK_IMAGE_COLOR).badValues(), 0u);
   targets.color = color.data();
+  targets.colorSize = color.size() * sizeof(float);
   ASSERT_EQ(wlkRenderHeadless(victim.scene.context, victim.scene.view, &targets), WLK_SUCCESS);
   const Image image = victim.scene.read(WLK_IMAGE_COLOR);
   EXPECT_EQ(image.badValues(), 0u);

@@ -68,7 +68,7 @@ WlkResult uploadBricks(Objects o) {
 WlkResult createContext(Objects) {
   const auto info = make<WlkContextInfo>();
   WlkContext context = nullptr;
-  const WlkResult result = wlkCreateContext(&info, &context);
+  const WlkResult result = wlkCreateContext(WLK_API_VERSION, &info, &context);
   wlkDestroyContext(context);
   return result;
 }
@@ -173,7 +173,7 @@ WlkResult evalSkyMap(Objects o) {
   query.size = 4;
   query.maxOrder = 1;
   float rgb[4 * 4 * 3] = {};
-  return wlkEvalSkyMap(*o.context, &query, rgb);
+  return wlkEvalSkyMap(*o.context, &query, rgb, sizeof rgb);
 }
 
 WlkResult evalPhase(Objects o) {

@@ -44,7 +44,7 @@ WlkResult Life::create() {
   auto info = make<WlkContextInfo>();
   info.next = &device;
   info.allocator = memory.callbacks();
-  return wlkCreateContext(&info, &context);
+  return wlkCreateContext(WLK_API_VERSION, &info, &context);
 }
 
 WlkResult Life::createMedium() {
@@ -347,7 +347,7 @@ void Life::addQueries(Steps& steps) {
     auto query = make<WlkSkyMapQuery>();
     query.size = 4;
     float rgb[4 * 4 * 3] = {};
-    return wlkEvalSkyMap(context, &query, rgb);
+    return wlkEvalSkyMap(context, &query, rgb, sizeof rgb);
   };
   const auto ambient = [this] {
     const double origin[3] = {0, 2, 0};

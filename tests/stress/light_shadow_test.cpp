@@ -99,6 +99,7 @@ class LightShadowAbuse : public ::testing::Test {
     auto t = make<WlkHeadlessInputs>();
     t.lightShadow = &shadow;
     t.shadowDepth = depth.data();
+    t.shadowDepthSize = depth.size() * sizeof(float);
     t.shadowWidth = t.shadowHeight = TEXELS;
     return t;
   }
@@ -125,6 +126,7 @@ TEST_F(LightShadowAbuse, WrongFieldsAreNamedAndChangeNothing) {
   };
   using T = WlkHeadlessInputs;
   const std::vector<Case> cases{{"shadowDepth", [](T& t) { t.shadowDepth = nullptr; }},
+                                {"shadowDepthSize", [](T& t) { t.shadowDepthSize = 4; }},
                                 {"shadowWidth", [](T& t) { t.shadowWidth = 0; }},
                                 {"shadowHeight", [](T& t) { t.shadowHeight = 8193; }}};
   for (const Case& test : cases) {

@@ -127,7 +127,9 @@ TEST(NumberFields, OfAmbientLightAreRefusedOrHarmless) {
        FLOATS(WlkAmbient, harmonics, WLK_AMBIENT_VALUES)},
       [&](const WlkAmbient& p) { return wlkSetAmbient(c, &p); },
       [&] {
-        ASSERT_EQ(wlkSetAmbient(c, nullptr), WLK_SUCCESS);
+        auto off = make<WlkAmbient>();
+        off.mode = WLK_AMBIENT_OFF;
+        ASSERT_EQ(wlkSetAmbient(c, &off), WLK_SUCCESS);
         ASSERT_EQ(wlkPrepare(c), WLK_SUCCESS);
       });
 }

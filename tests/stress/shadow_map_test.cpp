@@ -152,7 +152,7 @@ TEST_F(ShadowMapAbuse, CallsOutOfOrderAreRefused) {
 TEST(ShadowMapModes, NeedAnEngineDevice) {
   WlkContext context = nullptr;
   const auto cpu = make<WlkContextInfo>();
-  check(wlkCreateContext(&cpu, &context));
+  check(wlkCreateContext(WLK_API_VERSION, &cpu, &context));
   const Info info = small();
   WlkCloudShadow map{};
   EXPECT_EQ(wlkCreateCloudShadow(context, &info, &map), WLK_ERROR_WRONG_STATE);

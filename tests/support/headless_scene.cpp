@@ -9,9 +9,9 @@
 namespace welkin::test {
 namespace {
 
-void keepMessage(void* user, uint32_t severity, const char* text) {
-  if (severity != WLK_LOG_INFO) {
-    static_cast<std::vector<std::string>*>(user)->emplace_back(text);
+void keepMessage(void* user, const WlkLogMessage* message) {
+  if (message->id == WLK_LOG_ID_VALIDATION) {
+    static_cast<std::vector<std::string>*>(user)->emplace_back(message->text);
   }
 }
 
@@ -78,9 +78,11 @@ void SceneBuilder::create(const void* chained) {
   info.allocator = options_.allocator;
   info.log = keepMessage;
   info.logUser = messages_.get();
-  check(wlkCreateContext(&info, &context));
+  check(wlkCreateContext(WLK_API_VERSION, &info, &context));
   if (!options_.ambient) {
-    check(wlkSetAmbient(context, nullptr));
+    auto off = make<WlkAmbient>();
+    off.mode = WLK_AMBIENT_OFF;
+    check(wlkSetAmbient(context, &off));
   }
   if (options_.view) {
     view = addView(options_);
