@@ -160,10 +160,12 @@ def sizes_program(include):
 
 PRINTERS = """
 static void bytes(const char* name, const void* p, unsigned size) {
-  unsigned i;
-  printf("%s", name);
-  for (i = 0; i < size; ++i) printf("%s%02x", i % 4 == 0 ? " " : "", ((const unsigned char*)p)[i]);
-  puts("");
+  const unsigned char* byte = p;
+  unsigned last = size, i;
+  while (last > 0 && byte[last - 1] == 0) --last;
+  printf("%s: %u bytes,", name, size);
+  for (i = 0; i < last; ++i) printf(" %02x", byte[i]);
+  puts(last == 0 ? " all 0" : "");
 }
 #define NUMBERS(kind, type, format) \\
   static void kind(const char* name, const void* p, unsigned size) { \\
