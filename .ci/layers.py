@@ -50,7 +50,8 @@ RULES = [
      rf"{STANDARD}|{GLM}|{VULKAN}"),
     (r"tests/reference/.*", r"tests/reference/.*", rf"{STANDARD}|gtest/gtest\.h"),
     # A frozen copy of the API; its client includes it as <welkin/...>, found in the tree's headers.
-    (r"tests/abi/baseline/.*", r"(tests/abi/baseline/[\d.]+|include)/welkin/.*", rf"{STANDARD}|{VULKAN}"),
+    (r"tests/abi/baseline/.*", r"(tests/abi/baseline/[\d.]+|include)/welkin/.*",
+     rf"{STANDARD}|{VULKAN}"),
     (r"tests/abi/.*", r"include/welkin/.*", rf"{STANDARD}|{VULKAN}"),
     # The commands `reference` and `slab` draw with the tests' independent renderer and solver.
     (r"samples/cli/.*", r"include/welkin/.*|samples/.*|tests/reference/.*", ANY),
