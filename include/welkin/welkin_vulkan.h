@@ -153,8 +153,8 @@ typedef struct WlkVulkanViewTargets {
  *  back. The image has the volume's size and a format R16_SFLOAT, R32_SFLOAT, R16_UNORM or
  *  R8_UNORM. Unlike other images Welkin never moves it: both layouts are SHADER_READ_ONLY_OPTIMAL,
  *  stages and access are not looked at, and the engine makes the barriers between its writes and
- * the compute and fragment shaders of Welkin's commands, which come later in submission order. It
- * lives until wlkVulkanForgetImage. Values that are negative or not finite count as 0. [C] Errors:
+ *  the compute and fragment shaders of Welkin's commands, which come later in submission order. It
+ *  lives until wlkVulkanForgetImage. Values that are negative or not finite count as 0. [C] Errors:
  *  WRONG_STATE outside engine-device mode, INVALID_HANDLE, INVALID_ARGUMENT (field, size, layouts),
  *  UNSUPPORTED_FORMAT, OUT_OF_*. */
 WLK_API WlkResult wlkVulkanSetVolumeImage(WlkContext context, WlkVolume volume, uint32_t field,

@@ -267,7 +267,7 @@ typedef struct WlkHeadlessInfo {
   const char* deviceName;
 } WlkHeadlessInfo;
 
-/** Creates a context, or sets *context to null. `apiVersion` is WLK_API_VERSION, which is compiled
+/** Creates a context, or writes null. `apiVersion` is WLK_API_VERSION, which is compiled
  *  into the caller. Every library of the same major version takes it: an older one refuses what it
  *  does not know where it meets it (STRUCT_TOO_NEW, UNKNOWN_STRUCT, INVALID_ARGUMENT). Vulkan
  *  handles and functions of the chain must outlive the context. [F] Errors: INVALID_ARGUMENT,

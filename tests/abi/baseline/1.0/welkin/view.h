@@ -192,8 +192,8 @@ typedef struct WlkQuality {
   uint32_t scattering;
   /** Bits WLK_QUALITY_FLAG_*; others are refused. Default 0. */
   uint64_t flags;
-  /** With ALL_ORDERS: edge of a cube with as many cells as the grid of a volume has at most; fewer
-   *  where the device's storage buffers are smaller. Hint; 0 or [8, 128]. Default 0. */
+  /** With ALL_ORDERS: edge of a cube with as many cells as the grid of a volume has at most. Many
+   *  may exceed storage buffers (wlkPrepare, LIMIT_EXCEEDED). Hint; 0 or [8, 128]. Default 0. */
   uint32_t volumeCells;
   /** WLK_CONTROL_*. Default LEVEL. */
   uint32_t control;

@@ -26,7 +26,7 @@
  *    structures (structSize, and strides of arrays) stay welcome. A newer caller's longer one is
  *    taken if what this library does not know is 0.
  *  - What wlkInitStruct writes into a field, and what numbers mean, stays. Pictures of a quality
- * level may get better or faster; the CHANGELOG says so.
+ *    level may get better or faster; the CHANGELOG says so.
  *  - Expect new values where the library answers: WlkResult, WLK_REASON_*, WLK_PASS_*,
  *    WLK_CONTROL_REASON_*, WLK_APPROXIMATION_*, WLK_LOG_ID_*.
  *  - Values, flag bits and chained structures that this library does not know are refused.
