@@ -253,6 +253,40 @@ TEST(Limits, OfMediaLightsAndContextsAreChecked) {
   }
 }
 
+TEST(Limits, HeadlessInputsSayHowLargeTheyAre) {
+  VictimScene& victim = VictimScene::get();  // 16 x 12 pixels
+  const std::vector<float> pixels(16 * 12 * 4, 1.0f);
+  auto inputs = make<WlkHeadlessInputs>();
+  inputs.color = pixels.data();
+  inputs.colorSize = 16 * 12 * 16 - 1;
+  const auto render = [&] {
+    return wlkRenderHeadless(victim.scene.context, victim.scene.view, &inputs);
+  };
+  EXPECT_FAILS(render(), WLK_ERROR_INVALID_ARGUMENT, "colorSize");
+  inputs.colorSize += 1;
+  EXPECT_EQ(render(), WLK_SUCCESS);
+  inputs.depth = pixels.data();
+  inputs.depthSize = 16 * 12 * 4 - 1;
+  EXPECT_FAILS(render(), WLK_ERROR_INVALID_ARGUMENT, "depthSize");
+  inputs.depthSize += 1;
+  EXPECT_EQ(render(), WLK_SUCCESS);
+  victim.expectUnchanged();
+}
+
+TEST(Limits, NullAmbientLightIsThatOfANewContext) {
+  VictimScene& victim = VictimScene::get();
+  const WlkContext c = victim.scene.context;
+  // With air there is light to come from the sky again, which needs pipelines of its own.
+  ASSERT_EQ(wlkSetAmbient(c, nullptr), WLK_SUCCESS);
+  EXPECT_FAILS(wlkRenderHeadless(c, victim.scene.view, nullptr), WLK_ERROR_NOT_PREPARED, "view");
+  auto off = make<WlkAmbient>();
+  EXPECT_EQ(off.mode, uint32_t{WLK_AMBIENT_AUTOMATIC});
+  off.mode = WLK_AMBIENT_OFF;
+  ASSERT_EQ(wlkSetAmbient(c, &off), WLK_SUCCESS);
+  ASSERT_EQ(wlkPrepare(c), WLK_SUCCESS);
+  victim.expectUnchanged();
+}
+
 TEST(Limits, CallersOfTheSameMajorVersionAreTaken) {
   const auto info = make<WlkContextInfo>();
   WlkContext context = nullptr;
