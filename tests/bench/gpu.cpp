@@ -40,6 +40,7 @@ support::DeviceOptions options(bool validation) {
   result.features13.dynamicRendering = VK_TRUE;
   result.features.shaderStorageImageWriteWithoutFormat = VK_TRUE;
   result.features.dualSrcBlend = needs.dualSrcBlend;
+  result.features.fragmentStoresAndAtomics = needs.fragmentStoresAndAtomics;
   return result;
 }
 

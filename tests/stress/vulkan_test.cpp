@@ -388,6 +388,7 @@ TEST(EngineDeviceAbuse, BlendNeedsBothFeaturesOfTheDevice) {
     missing = feature;
     WlkVulkanDeviceInfo device = describeDevice(spy);
     device.getInstanceProcAddr = loaderWithout;
+    device.enabledFeatures = WLK_VULKAN_FEATURE_BLEND;
     auto info = make<WlkContextInfo>();
     info.next = &device;
     WlkContext context = nullptr;
