@@ -18,8 +18,8 @@ ANY = r".*"
 # Ours are repository paths; "generated" files exist in the build tree only and count as others.
 RULES = [
     (r"include/welkin/core\.h", r"-", STANDARD),
-    (r"include/welkin/(scene|surface|view|query|welkin)\.h",
-     r"include/welkin/(core|scene|surface|view|query)\.h", STANDARD),
+    (r"include/welkin/(scene|surface|view|output|statistics|query|welkin)\.h",
+     r"include/welkin/(core|scene|surface|view|output|statistics|query)\.h", STANDARD),
     (r"include/welkin/welkin_vulkan\.h", r"include/welkin/welkin\.h", VULKAN),
     (r"include/welkin/.*\.hpp", r"include/welkin/.*", STANDARD),
     (r"shaders/model/(model|sky/sky)\.glsl", r"shaders/model/.*", r"-"),
@@ -50,7 +50,8 @@ RULES = [
      rf"{STANDARD}|{GLM}|{VULKAN}"),
     (r"tests/reference/.*", r"tests/reference/.*", rf"{STANDARD}|gtest/gtest\.h"),
     # A frozen copy of the API; its client includes it as <welkin/...>, found in the tree's headers.
-    (r"tests/abi/baseline/.*", r"(tests/abi/baseline|include)/welkin/.*", rf"{STANDARD}|{VULKAN}"),
+    (r"tests/abi/baseline/.*", r"(tests/abi/baseline/[\d.]+|include)/welkin/.*",
+     rf"{STANDARD}|{VULKAN}"),
     (r"tests/abi/.*", r"include/welkin/.*", rf"{STANDARD}|{VULKAN}"),
     # The commands `reference` and `slab` draw with the tests' independent renderer and solver.
     (r"samples/cli/.*", r"include/welkin/.*|samples/.*|tests/reference/.*", ANY),

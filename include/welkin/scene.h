@@ -28,7 +28,8 @@ typedef struct WlkPlanet {
   uint32_t reserved0;
 } WlkPlanet;
 
-/** Sets the planet; null restores the defaults. [C] */
+/** Sets the planet; null restores the defaults. [C] Errors: INVALID_ARGUMENT (seaLevelPoint, up,
+ * radius, groundAlbedo). */
 WLK_API WlkResult wlkSetPlanet(WlkContext context, const WlkPlanet* planet);
 
 /** Air molecules: sky light, aerial perspective, reddening of the sun. [R04] 4.1. */
@@ -43,7 +44,8 @@ typedef struct WlkSky {
   float scaleHeight;
 } WlkSky;
 
-/** Sets the air; null means none (the default of a new context). [C] */
+/** Sets the air; null means none. [C] Errors: INVALID_ARGUMENT (rayleighScattering, scaleHeight).
+ */
 WLK_API WlkResult wlkSetSky(WlkContext context, const WlkSky* sky);
 
 /** A gas that absorbs and does not scatter: ozone. A part of the air: it is nothing without
@@ -58,7 +60,7 @@ typedef struct WlkAbsorber {
    *  wavelengths; at 680, 550 and 440 nm alone it is 6.5e-7, 1.881e-6, 8.5e-8, with which twilight
    *  is green (docs/accuracy-and-performance.md, Colour). Times halfWidth, it is the vertical
    *  optical depth where the whole profile is above the ground. */
-  float extinction[3];
+  float absorption[3];
   /** Altitude of the densest part. m, [0, 1e5], default 25000. */
   float peakAltitude;
   /** From the peak to where the density is 0, up and down. m, [100, 1e5], default 15000. */
@@ -66,7 +68,8 @@ typedef struct WlkAbsorber {
   uint32_t reserved0;
 } WlkAbsorber;
 
-/** Sets the absorbing gas; null means none (the default). [C] */
+/** Sets the absorbing gas; null means none. [C] Errors: INVALID_ARGUMENT (absorption, peakAltitude,
+ *  halfWidth). */
 WLK_API WlkResult wlkSetAbsorber(WlkContext context, const WlkAbsorber* absorber);
 
 /** A directional light with a disk: the sun, or a moon (wlkInitMoon). */
@@ -79,16 +82,17 @@ typedef struct WlkLight {
   /** Full angle of the disk. rad, [0, 0.2], default 0.00930 (the sun, 0.533 degrees).
    *  0: no disk. */
   float angularDiameter;
-  /** Irradiance on a surface facing the light, outside the atmosphere. RGB, [0, 1e6], default 1. */
+  /** Irradiance on a surface facing the light, outside the atmosphere, in any unit: radiance has it
+   *  per steradian. RGB, linear, [0, 1e6], default 1. */
   float irradiance[3];
   uint32_t reserved0;
   /** Exponent a of the disk's brightness mu^a, mu being the cosine between the surface's normal and
-   *  the line of sight (Hestroffer and Magnan 1998). RGB, [0, 2], default 0: uniform, also for
-   *  callers whose structSize ends before it. The Sun: 0.36, 0.47, 0.62. */
+   *  the line of sight (Hestroffer and Magnan 1998). RGB, [0, 2], default 0: uniform. The
+   *  Sun: 0.36, 0.47, 0.62. */
   float limbDarkening[3];
   /** Unit vector towards what lights the body (for a moon: the Sun); the disk shows its phase.
-   *  `irradiance` is the light of that phase. Default (0, 0, 0), also for callers whose structSize
-   *  ends before it: it shines by itself. */
+   *  `irradiance` is the light of that phase. Default (0, 0, 0): it shines by
+   *  itself. */
   float litFrom[3];
 } WlkLight;
 
@@ -146,10 +150,10 @@ typedef struct WlkAmbient {
   uint32_t reserved1;
 } WlkAmbient;
 
-/** Sets the ambient light of volumes; null means OFF. From or to OFF, as to and from AUTOMATIC
- *  without air and fog, needs wlkPrepare. AUTOMATIC
- *  costs 4 ms of CPU time for each volume in a frame before which planet, air, lights or the
- *  volume's place have changed. [C] Errors: INVALID_ARGUMENT (mode, sky, ground, harmonics). */
+/** Sets the ambient light of volumes; null means the defaults, AUTOMATIC. From or to OFF, as to and
+ *  from AUTOMATIC without air and fog, needs wlkPrepare. AUTOMATIC costs 4 ms of CPU time for each
+ * volume in a frame before which planet, air, lights or the volume's place have changed. [C]
+ * Errors: INVALID_ARGUMENT (mode, sky, ground, harmonics). */
 WLK_API WlkResult wlkSetAmbient(WlkContext context, const WlkAmbient* ambient);
 
 enum {
@@ -184,11 +188,11 @@ typedef struct WlkFog {
    *  taken; singleScatteringAlbedo above is the layer's. It is copied: the medium may be destroyed
    *  afterwards, but setting it once more needs it. Where WlkMediumOptics::deltaFraction is not 0
    *  (rain, ice, snow), what goes straight on is taken off the extinction, as volumes do. Default
-   *  0, also for callers whose structSize ends before it. */
+   *  id 0. */
   WlkMedium medium;
 } WlkFog;
 
-/** Sets the fog layer; null means none (the default). [C] Errors: INVALID_ARGUMENT, INVALID_HANDLE
+/** Sets the fog layer; null means none. [C] Errors: INVALID_ARGUMENT, INVALID_HANDLE
  *  (medium). */
 WLK_API WlkResult wlkSetFog(WlkContext context, const WlkFog* fog);
 
@@ -246,9 +250,10 @@ typedef struct WlkMediumInfo {
    *  [0.4, 0.7]; other than 0 not for USER. Droplets below 0.44 and above 0.68 are computed as for
    *  another spread. Default 0. */
   float wavelength_um;
-  /** For USER: scattering angles in rad, rising from 0 to pi, and 3 values (RGB) for each in any
-   *  unit, [0, 1e30]. Between them ln P is interpolated, 0 being 1e-20 of its neighbour; what is
-   *  narrower than 0.1 degrees is averaged. Read during the call only. Default null. */
+  /** For USER: userCount scattering angles in rad, rising from 0 to pi, and 3 * userCount values,
+   * RGB of each angle together, in any unit, [0, 1e30]. Between them ln P is interpolated, 0 being
+   * 1e-20 of its neighbour; what is narrower than 0.1 degrees is averaged. Read during the call
+   * only. Default null. */
   const double* userAngle;
   const double* userPhase;
   /** [2, 65536] for USER, else 0. Default 0. */
@@ -256,10 +261,10 @@ typedef struct WlkMediumInfo {
   uint32_t reserved0;
 } WlkMediumInfo;
 
-/** Creates a medium. [C] Errors: INVALID_ARGUMENT, OUT_OF_HOST_MEMORY. */
-WLK_API WlkResult wlkCreateMedium(WlkContext context, const WlkMediumInfo* info,
-                                  WlkMedium* medium); /* [C] */
-/** Errors: WRONG_STATE while a volume uses it. [C] */
+/** Creates a medium; a spread of its own blocks the caller for 0.2 to 10 s (WlkMediumInfo::spread).
+ * [C] Errors: INVALID_ARGUMENT, OUT_OF_HOST_MEMORY. */
+WLK_API WlkResult wlkCreateMedium(WlkContext context, const WlkMediumInfo* info, WlkMedium* medium);
+/** What was made with it keeps a copy. [C] Errors: INVALID_HANDLE. */
 WLK_API WlkResult wlkDestroyMedium(WlkContext context, WlkMedium medium);
 
 /** Atmospheres to start from; docs/atmospheres.md has numbers and sources. */
@@ -275,7 +280,7 @@ enum {
 };
 
 /** As wlkInitStruct, with the values of an atmosphere (WLK_ATMOSPHERE_*) instead of the defaults.
- * It consists of WLK_STRUCT_PLANET, SKY, ABSORBER (extinction 0 where there is no such gas), FOG
+ * It consists of WLK_STRUCT_PLANET, SKY, ABSORBER (absorption 0 where there is no such gas), FOG
  * (its haze or dust; `medium` is 0: create the next and set it), MEDIUM_INFO (what the haze is) and
  * LIGHT (the sun as seen from there, straight up; `irradiance` is relative to that at the Earth, 1
  * there: multiply it by the engine's own value). The caller changes what it wants and sets what it
@@ -347,12 +352,13 @@ typedef struct WlkVolumeInfo {
   double worldFromVolume[12];
 } WlkVolumeInfo;
 
-/** Creates a volume of value 0 everywhere. [C] Errors: INVALID_ARGUMENT, INVALID_HANDLE (medium),
- *  LIMIT_EXCEEDED, OUT_OF_*, WRONG_STATE in CPU mode. */
+/** Creates a volume of value 0 everywhere; it needs wlkPrepare. Media are copied. [C] Errors:
+ * INVALID_ARGUMENT, INVALID_HANDLE (medium), LIMIT_EXCEEDED, OUT_OF_*, WRONG_STATE in CPU mode. */
 WLK_API WlkResult wlkCreateVolume(WlkContext context, const WlkVolumeInfo* info, WlkVolume* volume);
-/** The memory is freed when no frame in flight uses it. [C] */
+/** The memory is freed when no frame in flight uses it. [C] Errors: INVALID_HANDLE. */
 WLK_API WlkResult wlkDestroyVolume(WlkContext context, WlkVolume volume);
-/** Moves a volume; as WlkVolumeInfo::worldFromVolume. [C] */
+/** Moves a volume; as WlkVolumeInfo::worldFromVolume. [C] Errors: INVALID_HANDLE, INVALID_ARGUMENT.
+ */
 WLK_API WlkResult wlkSetVolumeTransform(WlkContext context, WlkVolume volume,
                                         const double worldFromVolume[12]);
 
@@ -368,7 +374,7 @@ typedef struct WlkVolumeUpload {
   uint32_t format;
   /** First voxel. Default 0. */
   uint32_t offset[3];
-  /** Voxels along x, y, z; offset + extent <= size. Default 0. */
+  /** Voxels along x, y, z, 1 or more; offset + extent <= size. Default 0, which is refused. */
   uint32_t extent[3];
   /** Bytes from one row (y) to the next; 0 means tight. Default 0. */
   uint64_t rowPitch;
@@ -381,7 +387,10 @@ typedef struct WlkVolumeUpload {
 } WlkVolumeUpload;
 
 /** Copies the data; the GPU copy is made by the next frame. A field that is kept as bricks takes
- *  only all of its voxels at once, is no longer kept so, and then needs wlkPrepare. [C] */
+ *  only all of its voxels at once, is no longer kept so, and then needs wlkPrepare. Values that had
+ *  to be replaced go to the log (WLK_LOG_ID_VALUES_REPLACED). [C] Errors: INVALID_ARGUMENT (field,
+ *  extent, data, dataSize, rowPitch, slicePitch), UNSUPPORTED_FORMAT, OUT_OF_*, WRONG_STATE in CPU
+ *  mode. */
 WLK_API WlkResult wlkUploadVolume(WlkContext context, WlkVolume volume,
                                   const WlkVolumeUpload* upload);
 
@@ -406,7 +415,8 @@ WLK_API WlkResult wlkClearVolumeDiameters(WlkContext context, WlkVolume volume);
 /** Extinction (1/m, mean of the colours) of liquid water as droplets: 0.75 Q W / (density r),
  *  where W is waterContent (kg/m^3, [0, 1000]), r the effective radius and Q the extinction
  *  efficiency of diameter_um; values of these as in wlkUploadVolumeDiameters, null: the medium's
- *  own. The medium as there. Upload the result with an extinctionScale of 1. [C] */
+ *  own. The medium as there. Upload the result with an extinctionScale of 1. [C] Errors:
+ * INVALID_HANDLE, INVALID_ARGUMENT (medium, waterContent, extinction). */
 WLK_API WlkResult wlkEvalWaterExtinction(WlkContext context, WlkMedium medium, uint32_t count,
                                          const float* waterContent, const float* diameter_um,
                                          float* extinction);
@@ -449,15 +459,13 @@ typedef struct WlkVolumeState {
   const void* next;
   /** Bricks of 8 x 8 x 8 voxels along x, y, z. */
   uint32_t bricks[3];
-  /** 1 where eye rays leap over empty bricks, else 0. wlkPrepare decides: where something can be
-   *  met in under 40 % of the bricks, until it can in 80 %, and no field is an engine's image.
-   *  WLK_QUALITY_NO_SKIP does without; the picture is the same. */
+  /** 1 where eye rays leap over empty bricks, else 0. wlkPrepare decides; the picture is the same.
+   */
   uint32_t leaps;
   /** Bricks that hold a value above 0, those of all fields together. What is overwritten by parts
    *  of a brick counts as before. */
   uint64_t occupiedBricks;
-  /** The same for fields kept as bricks, with those that only interpolation reaches. Each takes
-   *  1458 bytes. */
+  /** The same for fields kept as bricks, with those that only interpolation reaches. */
   uint64_t storedBricks;
   /** Bytes of the images on the device: voxels, bricks and where they are. */
   uint64_t deviceMemory;

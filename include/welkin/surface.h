@@ -76,9 +76,10 @@ typedef struct WlkSurfaceDetail {
  *  indices, worldFromSurface), INVALID_HANDLE (medium), OUT_OF_*, WRONG_STATE in CPU mode. */
 WLK_API WlkResult wlkCreateSurface(WlkContext context, const WlkSurfaceInfo* info,
                                    WlkSurface* surface);
-/** The memory is freed when no frame in flight uses it. [C] */
+/** The memory is freed when no frame in flight uses it. [C] Errors: INVALID_HANDLE. */
 WLK_API WlkResult wlkDestroySurface(WlkContext context, WlkSurface surface);
-/** Moves a surface; as WlkSurfaceInfo::worldFromSurface. [C] */
+/** Moves a surface; as WlkSurfaceInfo::worldFromSurface. [C] Errors: INVALID_HANDLE,
+ * INVALID_ARGUMENT. */
 WLK_API WlkResult wlkSetSurfaceTransform(WlkContext context, WlkSurface surface,
                                          const double worldFromSurface[12]);
 /** Gives a surface detail, or other detail; null takes it away. The first detail of a context takes

@@ -20,19 +20,33 @@ enum {
   WLK_COMPOSITE_SEPARATE = 2
 };
 
-/** Layers of a view. SUN_DISK and GROUND belong to the sky: they need WLK_LAYER_SKY and
- *  wlkSetSky. */
+/** Layers of a view: what it shows. What is not shown still takes part in the light of the rest. */
 enum {
+  /** Light that air and absorber scatter and take away (wlkSetSky). */
   WLK_LAYER_SKY = 1u << 0,
+  /** The same of fog (wlkSetFog). */
   WLK_LAYER_FOG = 1u << 1,
   WLK_LAYER_VOLUMES = 1u << 2,
+  /** Disks of the lights, where the engine drew nothing; with WLK_LAYER_SKY and wlkSetSky only. */
   WLK_LAYER_SUN_DISK = 1u << 3,
+  /** The bare planet, where the engine drew nothing; with WLK_LAYER_SKY and wlkSetSky only. */
   WLK_LAYER_GROUND = 1u << 4,
+  /** Cloud surfaces (surface.h). */
   WLK_LAYER_SURFACES = 1u << 5,
-  WLK_LAYER_ALL = 0x3f
+  /** All that the library has, those of newer ones included. With layers taken away by & ~ it is
+   *  all others. */
+  WLK_LAYER_ALL = 0x7fffffff
 };
 
-enum { WLK_TARGET_RGBA16_FLOAT = 1, WLK_TARGET_RGBA32_FLOAT = 2, WLK_TARGET_B10G11R11_FLOAT = 3 };
+/** Formats of the images that views write. */
+enum {
+  /** VK_FORMAT_R16G16B16A16_SFLOAT. */
+  WLK_TARGET_RGBA16_FLOAT = 1,
+  /** VK_FORMAT_R32G32B32A32_SFLOAT. */
+  WLK_TARGET_RGBA32_FLOAT = 2,
+  /** VK_FORMAT_B10G11R11_UFLOAT_PACK32. */
+  WLK_TARGET_B10G11R11_FLOAT = 3
+};
 
 /** What the three channels of the radiance are. Transmittance is per channel in any case. */
 enum {
@@ -41,8 +55,14 @@ enum {
   /** Linear sRGB (Rec. 709, D65) of the whole spectrum that these three stand for. Irradiance 1, 1,
    *  1 is then sunlight outside the atmosphere: luminance 1, colour (1.098, 0.977, 0.940). Colours
    *  outside the gamut are cut off at 0. */
-  WLK_COLOR_SRGB = 1
+  WLK_COLOR_LINEAR_SRGB = 1
 };
+
+/** The column-major 3x3 matrix from radiance at 680, 550 and 440 nm to WLK_COLOR_*: for what
+ * queries return (wlkEvalLight, wlkEvalIrradiance, wlkEvalAmbient, wlkEvalSkyMap and wlkEvalSky are
+ * always at the wavelengths), so that engines' objects are lit in the colours of the picture.
+ * Results below 0 are cut off there. [F] Errors: INVALID_ARGUMENT (colorSpace, matrix). */
+WLK_API WlkResult wlkGetColorMatrix(uint32_t colorSpace, double matrix[9]);
 
 /** A picture that is drawn again and again: its size, and how it reaches the engine's. */
 typedef struct WlkViewInfo {
@@ -56,10 +76,10 @@ typedef struct WlkViewInfo {
   uint32_t composite;
   /** Format of the images written, WLK_TARGET_*. Default RGBA16_FLOAT; headless RGBA32_FLOAT. */
   uint32_t targetFormat;
-  /** Bits WLK_LAYER_*. Default all. */
+  /** Bits WLK_LAYER_*. Others are refused, unless they are of WLK_LAYER_ALL. Default ALL. */
   uint64_t layers;
   /** WLK_COLOR_*. Default WAVELENGTHS. */
-  uint32_t color;
+  uint32_t colorSpace;
   uint32_t reserved0;
 } WlkViewInfo;
 
@@ -67,9 +87,10 @@ typedef struct WlkViewInfo {
  *  INVALID_ARGUMENT, UNSUPPORTED_FORMAT, MISSING_FEATURE (BLEND), WRONG_STATE in CPU mode and for
  *  BLEND in headless mode, OUT_OF_HOST_MEMORY. */
 WLK_API WlkResult wlkCreateView(WlkContext context, const WlkViewInfo* info, WlkView* view);
-/** Changes size, composite mode, format or layers. Needs wlkPrepare. [C] */
+/** Changes size, composite mode, format, layers or colours. Needs wlkPrepare. [C] Errors: as
+ *  wlkCreateView. */
 WLK_API WlkResult wlkUpdateView(WlkContext context, WlkView view, const WlkViewInfo* info);
-/** The memory is freed when no frame in flight uses it. [C] */
+/** The memory is freed when no frame in flight uses it. [C] Errors: INVALID_HANDLE. */
 WLK_API WlkResult wlkDestroyView(WlkContext context, WlkView view);
 
 /** Near, far, field of view, handedness, reversed and infinite depth follow from the matrix. */
@@ -92,6 +113,7 @@ typedef struct WlkCamera {
  *  orthographic clipFromView and for a viewFromWorld that is no rotation. */
 WLK_API WlkResult wlkSetCamera(WlkContext context, WlkView view, const WlkCamera* camera);
 
+/** Levels of quality: each costs more than the one before and is nearer to the truth. */
 enum { WLK_QUALITY_LOW = 0, WLK_QUALITY_MEDIUM = 1, WLK_QUALITY_HIGH = 2, WLK_QUALITY_ULTRA = 3 };
 
 enum {
@@ -117,11 +139,11 @@ enum {
 
 enum {
   /** Record every pass whether needed or not; for tests that compare with skipping. */
-  WLK_QUALITY_NO_SKIP = 1u << 0,
+  WLK_QUALITY_FLAG_NO_SKIP = 1u << 0,
   /** Volumes shade air, fog, bare planet from the first light; what layers let through arrives. */
-  WLK_QUALITY_VOLUME_SHADOWS = 1u << 1,
+  WLK_QUALITY_FLAG_VOLUME_SHADOWS = 1u << 1,
   /** So does the engine's shadow map (WlkLightShadow) given with a view's targets: shafts. */
-  WLK_QUALITY_LIGHT_SHADOWS = 1u << 2
+  WLK_QUALITY_FLAG_LIGHT_SHADOWS = 1u << 2
 };
 
 /** In how many pixels the rays of volumes are marched. */
@@ -148,29 +170,30 @@ enum {
   WLK_CONTROL_ERROR = 3
 };
 
-/** Zero in a field means the level's choice. */
+/** Zero in a field means the level's choice. sliceCount, batchSize, lightBufferSize, slicing,
+ *  volumeCells, lightFrames and volumeResolution are hints: their ranges stay for all 1.x, but a
+ *  later one may reach the same picture otherwise, choose other numbers, or need none of them. */
 typedef struct WlkQuality {
   uint32_t sType;
   uint32_t structSize;
   const void* next;
   /** WLK_QUALITY_*. Default HIGH. */
   uint32_t level;
-  /** Slabs through each volume. 0 or [8, 2048]. Default 0. */
+  /** Slabs through each volume. Hint; 0 or [8, 2048]. Default 0. */
   uint32_t sliceCount;
-  /** Slabs per batch, whose light is computed in every frame: 1 is the paper's algorithm. 0: the
-   *  light of all slabs across the light is kept between frames and shared by the views, as far as
-   *  512 MiB hold it; else batches of the level. 0 or [1, sliceCount]. Default 0. */
+  /** Slabs per batch, whose light is computed in every frame. 0: light is kept between frames and
+   *  shared by the views, as far as memory allows. Hint; 0 or [1, sliceCount]. Default 0. */
   uint32_t batchSize;
-  /** Texels along the light buffer's edge. 0 or [16, 2048]. Default 0. */
+  /** Texels along the light buffer's edge. Hint; 0 or [16, 2048]. Default 0. */
   uint32_t lightBufferSize;
-  /** WLK_SLICING_*. Default DEFAULT. */
+  /** WLK_SLICING_*. Hint. Default DEFAULT. */
   uint32_t slicing;
   /** WLK_SCATTERING_*. Default DEFAULT. */
   uint32_t scattering;
-  /** Bits WLK_QUALITY_NO_SKIP, WLK_QUALITY_VOLUME_SHADOWS. Default 0. */
+  /** Bits WLK_QUALITY_FLAG_*; others are refused. Default 0. */
   uint64_t flags;
-  /** With ALL_ORDERS: edge of a cube with as many cells as the grid of a volume has at most. 0 or
-   *  [8, 128], 72 where storage buffers are the least 128 MiB (wlkPrepare). Default 0. */
+  /** With ALL_ORDERS: edge of a cube with as many cells as the grid of a volume has at most. Many
+   *  may exceed storage buffers (wlkPrepare, LIMIT_EXCEEDED). Hint; 0 or [8, 128]. Default 0. */
   uint32_t volumeCells;
   /** WLK_CONTROL_*. Default LEVEL. */
   uint32_t control;
@@ -182,18 +205,19 @@ typedef struct WlkQuality {
   float errorTarget;
   /** WLK_QUALITY_* below which no control goes, at most `level`. Default LOW. */
   uint32_t lowestLevel;
-  /** WLK_VOLUME_RESOLUTION_*. Default DEFAULT. */
+  /** WLK_VOLUME_RESOLUTION_*. Hint. Default DEFAULT. */
   uint32_t volumeResolution;
   /** With WLK_SCATTERING_ALL_ORDERS: frames over which a volume's light is renewed, in even parts,
    *  as the first light's direction moves by up to 5 degrees per frame; other changes show at once.
-   *  Scattered light lags by 2 lightFrames - 2 frames. 0 (as 1) or [1, 64]. Default 0. */
+   *  Scattered light lags by up to 2 lightFrames - 2 frames. Hint; 0 (as 1) or [1, 64]. Default 0.
+   */
   uint32_t lightFrames;
   uint32_t reserved0;
 } WlkQuality;
 
 /** Sets a view's quality. Needs wlkPrepare, unless only timeBudget_ms or errorTarget of a
- *  controlled quality change. [C] MISSING_FEATURE: WLK_CONTROL_TIME on a queue without
- *  timestamps. */
+ *  controlled quality change. [C] Errors: INVALID_ARGUMENT, MISSING_FEATURE (WLK_CONTROL_TIME on a
+ *  queue without timestamps). */
 WLK_API WlkResult wlkSetQuality(WlkContext context, WlkView view, const WlkQuality* quality);
 
 /** Why a controlled view stands where it does. */
@@ -226,11 +250,12 @@ typedef struct WlkQualityState {
   uint32_t control;
   /** WLK_CONTROL_REASON_*. */
   uint32_t reason;
-  /** Of the next frame; of all levels the ladder has the rungs 0, 3, 7 and 11. */
+  /** Of the next frame. How many rungs there are, and what each stands for, may change with any
+   *  version. */
   uint32_t rung;
   uint32_t lowestRung;
   uint32_t highestRung;
-  /** What the rung stands for, as in WlkQuality. */
+  /** What the rung stands for, as in WlkQuality; 0 where the library uses no such number. */
   uint32_t sliceCount;
   uint32_t batchSize;
   uint32_t lightBufferSize;
@@ -247,7 +272,7 @@ typedef struct WlkQualityState {
   uint64_t switches;
 } WlkQualityState;
 
-/** Tells what a view's quality is and why. [C] */
+/** Tells what a view's quality is and why. [C] Errors: INVALID_HANDLE, UNKNOWN_STRUCT. */
 WLK_API WlkResult wlkGetQualityState(WlkContext context, WlkView view, WlkQualityState* state);
 
 /** Reports the GPU time of the view's part of a finished frame, ms, for WLK_CONTROL_REPORTED_TIME;
@@ -276,14 +301,15 @@ typedef struct WlkFrameInfo {
   uint32_t sType;
   uint32_t structSize;
   const void* next;
-  /** Number of this frame; greater than the last one. Default 0. */
+  /** Number of this frame; greater than the last one, from 1 on. Default 0, which is refused. */
   uint64_t frameIndex;
-  /** All frames up to this number are complete on the GPU; 0 if none. Default 0. */
+  /** All frames up to this number are complete on the GPU; 0 if none. Less than frameIndex, and
+   * never less than before. Default 0. */
   uint64_t completedFrameIndex;
 } WlkFrameInfo;
 
-/** Starts a frame on the engine's device; headless contexts do this themselves. frameIndex starts
- *  at 1. [C] Errors: FRAMES_IN_FLIGHT, INVALID_ARGUMENT, WRONG_STATE. */
+/** Starts a frame on the engine's device; headless contexts do this themselves. [C] Errors:
+ * FRAMES_IN_FLIGHT, INVALID_ARGUMENT, WRONG_STATE. */
 WLK_API WlkResult wlkBeginFrame(WlkContext context, const WlkFrameInfo* frame);
 
 #define WLK_MAX_SHADOW_CASCADES 4
@@ -301,8 +327,8 @@ typedef struct WlkLightShadow {
    */
   uint32_t cascadeCount;
   /** Index in wlkSetLights. [0, WlkCapabilities::maxLights - 1], default 0. A map is read if this
-   *  light is the brightest one on the volumes or, without any, the first one that reaches the air.
-   */
+   *  light is the brightest one on the volumes or, without any, the first one that reaches the air;
+   *  else WLK_LOG_ID_SHADOW_MAP_UNUSED says that it is not. */
   uint32_t light;
   /** Where positions in clipFromWorld are counted from, for example the camera's position. World,
    *  m, |x| <= 1e9. Default 0. */
@@ -319,28 +345,38 @@ typedef struct WlkLightShadow {
 } WlkLightShadow;
 
 /** The engine's picture for wlkRenderHeadless. */
-typedef struct WlkHeadlessTargets {
+typedef struct WlkHeadlessInputs {
   uint32_t sType;
   uint32_t structSize;
   const void* next;
-  /** width * height RGBA floats, top row first; null means black. Default null. */
+  /** width * height RGBA floats, top row first; null: black. Read during the call only, as all
+   *  here. Default null. */
   const float* color;
-  /** width * height depth values in the camera's convention; null means nothing is there. */
+  /** Bytes at color, at least width * height * 16. Default 0. */
+  uint64_t colorSize;
+  /** width * height depth values in the camera's convention; null: nothing is there. Default null.
+   */
   const float* depth;
-  /** A shadow map; null: none. Needs WLK_QUALITY_LIGHT_SHADOWS. Default null. */
+  /** Bytes at depth, at least width * height * 4. Default 0. */
+  uint64_t depthSize;
+  /** Where the engine's shadow map lies; null: there is none. Needs WLK_QUALITY_FLAG_LIGHT_SHADOWS.
+   *  Default null. */
   const WlkLightShadow* lightShadow;
-  /** shadowWidth * shadowHeight * cascadeCount depth values, the cascades one after the other. */
+  /** shadowWidth * shadowHeight * cascadeCount depth values, the cascades one after the other; null
+   *  only without lightShadow. Default null. */
   const float* shadowDepth;
-  /** Texels of a cascade. [1, 8192]. */
+  /** Bytes at shadowDepth, at least four times that. Default 0. */
+  uint64_t shadowDepthSize;
+  /** Texels of a cascade. [1, 8192] with lightShadow. Default 0. */
   uint32_t shadowWidth;
   uint32_t shadowHeight;
-} WlkHeadlessTargets;
+} WlkHeadlessInputs;
 
-/** Renders one frame of the view and waits for it. `targets` may be null. [C]
+/** Renders one frame of the view and waits for it. `inputs` may be null. [C]
  *  Errors: WRONG_STATE outside headless mode and for a shadow map without the quality's flag,
  *  INVALID_ARGUMENT, NOT_PREPARED, OUT_OF_*, DEVICE_LOST. */
 WLK_API WlkResult wlkRenderHeadless(WlkContext context, WlkView view,
-                                    const WlkHeadlessTargets* targets);
+                                    const WlkHeadlessInputs* inputs);
 
 enum {
   /** The composited picture (COMPUTE). */
@@ -368,130 +404,6 @@ typedef struct WlkImageData {
 /** Copies an image of the view's last headless frame. [C] NOT_READY before the first and after one
  *  that failed. Errors: WRONG_STATE, INVALID_ARGUMENT, DEVICE_LOST (nobody knows what it holds). */
 WLK_API WlkResult wlkReadback(WlkContext context, WlkView view, const WlkImageData* image);
-
-/* --------------------------------------------------------------------------------- statistics */
-
-enum {
-  WLK_PASS_LIGHT_SLICES = 1,
-  WLK_PASS_EYE_SLICES = 2,
-  WLK_PASS_COMPOSITE = 3,
-  /** Light of the sky scattered more than once, by direction. */
-  WLK_PASS_SKY_TABLE = 4,
-  /** Light inside a volume that was scattered before (WLK_SCATTERING_ALL_ORDERS). */
-  WLK_PASS_VOLUME_LIGHT = 5,
-  /** A map of the volumes' shadow: the engine's (welkin_vulkan.h), or the view's own. */
-  WLK_PASS_SHADOW_MAP = 6,
-  /** Light of sky and ground inside a volume (wlkSetAmbient). */
-  WLK_PASS_VOLUME_AMBIENT = 7,
-  /** Aerial perspective for the engine's transparents, its march through volumes included. */
-  WLK_PASS_AERIAL_PERSPECTIVE = 8,
-  /** The volumes' mean distance per pixel (welkin_vulkan.h). */
-  WLK_PASS_VOLUME_DISTANCE = 9,
-  /** Of a cloud surface: its light maps, and what pixels see of it. */
-  WLK_PASS_SURFACE_LIGHT = 10,
-  WLK_PASS_SURFACE = 11
-};
-
-/** Why a pass was recorded or not. */
-enum {
-  WLK_REASON_NEEDED = 0,
-  WLK_REASON_LAYER_OFF = 1,
-  WLK_REASON_NOTHING_TO_DRAW = 2,
-  WLK_REASON_ZERO_DENSITY = 3,
-  WLK_REASON_OUTSIDE_VIEW = 4,
-  WLK_REASON_NO_LIGHT = 5,
-  WLK_REASON_NO_SKIP_FLAG = 6,
-  /** What the pass depends on is as in an earlier frame, whose result is used. */
-  WLK_REASON_UNCHANGED = 7,
-  /** A part is computed, or complete light fades in (WlkQuality::lightFrames). */
-  WLK_REASON_SPREAD = 8
-};
-
-/** One line of the plan: a pass over one volume (or over the picture), all its batches together. */
-typedef struct WlkPassStats {
-  /** "light slices" and so on. */
-  char name[WLK_NAME_SIZE];
-  /** WLK_PASS_*. */
-  uint32_t pass;
-  /** 1 if commands were recorded, 0 if skipped. */
-  uint32_t recorded;
-  /** WLK_REASON_*. */
-  uint32_t reason;
-  /** Dispatches or draws recorded. */
-  uint32_t commands;
-  /** The volume, {0} for passes over the picture; for those of a cloud surface `id` is its. */
-  WlkVolume volume;
-  /** Shader invocations (threads) recorded. */
-  uint64_t invocations;
-  /** GPU time of the newest finished frame, ns; 0 before one finished. */
-  uint64_t gpuTime_ns;
-} WlkPassStats;
-
-/** What was recorded for a view's frame, and what the context holds. */
-typedef struct WlkFrameStats {
-  uint32_t sType;
-  uint32_t structSize;
-  const void* next;
-  uint64_t frameIndex;
-  uint32_t dispatches;
-  uint32_t draws;
-  uint32_t barriers;
-  uint32_t descriptorWrites;
-  uint64_t bytesUploaded;
-  /** Bytes of device memory and of host memory that the context holds. */
-  uint64_t deviceMemory;
-  uint64_t hostMemory;
-  /** Pixels and froxels of the newest finished frame not finite before the final guard. */
-  uint64_t nonFinitePixels;
-} WlkFrameStats;
-
-/** Statistics of the view's last recorded frame. `passCount` holds the room in `passes` and
- *  receives the number of passes; `stride` is the caller's sizeof(WlkPassStats); `passes` may be
- *  null. [C] NOT_READY before the first frame, INCOMPLETE if the array was too short. Errors:
- *  INVALID_ARGUMENT (stride too short). */
-WLK_API WlkResult wlkGetFrameStats(WlkContext context, WlkView view, WlkFrameStats* stats,
-                                   uint32_t* passCount, uint32_t stride, WlkPassStats* passes);
-
-/** "WLK_REASON_ZERO_DENSITY" and so on. [F] */
-WLK_API const char* wlkReasonName(uint32_t reason);
-
-/* --------------------------------------------------------------------------- estimate of error */
-
-/** What keeps a picture from the truth. */
-enum {
-  /** Sky light: with WLK_SCATTERING_SINGLE what was scattered more than once or by the ground. */
-  WLK_APPROXIMATION_SKY = 0,
-  /** Light scattered more than once in the fog layer, by two Legendre terms. */
-  WLK_APPROXIMATION_FOG = 1,
-  /** Light inside volumes; their shadows on air and ground, ambient light: where not asked for. */
-  WLK_APPROXIMATION_VOLUME_SCATTERING = 2,
-  /** Slabs and light-buffer texels. */
-  WLK_APPROXIMATION_VOLUME_SLICES = 3
-};
-#define WLK_MAX_APPROXIMATIONS 8
-
-/** Relative errors of the radiance against all orders of scattering: root mean square over the
- *  picture's pixels and colours of (radiance - truth) / truth, without opaque surfaces. */
-typedef struct WlkErrorEstimate {
-  uint32_t sType;
-  uint32_t structSize;
-  const void* next;
-  /** All approximations together, [0, 1]. */
-  float relativeError;
-  /** WLK_APPROXIMATION_* of the largest part. */
-  uint32_t dominant;
-  /** By WLK_APPROXIMATION_*; the sum of their squares is that of relativeError. */
-  float part[WLK_MAX_APPROXIMATIONS];
-} WlkErrorEstimate;
-
-/** Estimates the error of the view's next frame from the scene, the camera and the quality: rules
- *  fitted to measurements (docs/accuracy-and-performance.md), right within a factor of 2 for most
- *  scenes, the part of the slabs within 4. A volume in an engine's image counts as filled with 1,
- *  uploads by parts as if the rest kept its mean. Renders nothing. [C] */
-WLK_API WlkResult wlkGetErrorEstimate(WlkContext context, WlkView view, WlkErrorEstimate* estimate);
-
-/** "WLK_APPROXIMATION_SKY" and so on. [F] */
-WLK_API const char* wlkApproximationName(uint32_t approximation);
 
 #ifdef __cplusplus
 }

@@ -7,10 +7,9 @@
  *   WlkSky sky = welkin::make<WlkSky>();
  *   welkin::check(wlkSetSky(context, &sky));
  *
- * Owners move and do not copy. A context must outlive the views, volumes and media made from it,
- * and a medium the volumes that use it; declaring them in that order is enough. Constructors and
- * check() throw welkin::Error; each owner's create() returns the WlkResult instead, and with
- * WELKIN_NO_EXCEPTIONS defined only these remain.
+ * Owners move and do not copy. A context must outlive what was made from it; declaring it first is
+ * enough. Constructors and check() throw welkin::Error; each owner's create() returns the WlkResult
+ * instead, and with WELKIN_NO_EXCEPTIONS defined only these remain.
  */
 #ifndef WELKIN_WELKIN_HPP
 #define WELKIN_WELKIN_HPP
@@ -28,9 +27,6 @@ struct WlkVulkanDeviceInfo;
 struct WlkVulkanRequirements;
 struct WlkVulkanImage;
 struct WlkVulkanViewTargets;
-struct WlkShadowMapInfo;
-struct WlkShadowMapState;
-struct WlkAerialPerspective;
 
 namespace welkin {
 
@@ -47,6 +43,7 @@ WELKIN_STRUCT_TYPE(::WlkErrorInfo, WLK_STRUCT_ERROR_INFO);
 WELKIN_STRUCT_TYPE(::WlkContextInfo, WLK_STRUCT_CONTEXT_INFO);
 WELKIN_STRUCT_TYPE(::WlkHeadlessInfo, WLK_STRUCT_HEADLESS_INFO);
 WELKIN_STRUCT_TYPE(::WlkCapabilities, WLK_STRUCT_CAPABILITIES);
+WELKIN_STRUCT_TYPE(::WlkLogMessage, WLK_STRUCT_LOG_MESSAGE);
 WELKIN_STRUCT_TYPE(::WlkPlanet, WLK_STRUCT_PLANET);
 WELKIN_STRUCT_TYPE(::WlkSky, WLK_STRUCT_SKY);
 WELKIN_STRUCT_TYPE(::WlkLight, WLK_STRUCT_LIGHT);
@@ -67,7 +64,7 @@ WELKIN_STRUCT_TYPE(::WlkQuality, WLK_STRUCT_QUALITY);
 WELKIN_STRUCT_TYPE(::WlkQualityState, WLK_STRUCT_QUALITY_STATE);
 WELKIN_STRUCT_TYPE(::WlkFrameInfo, WLK_STRUCT_FRAME_INFO);
 WELKIN_STRUCT_TYPE(::WlkLightShadow, WLK_STRUCT_LIGHT_SHADOW);
-WELKIN_STRUCT_TYPE(::WlkHeadlessTargets, WLK_STRUCT_HEADLESS_TARGETS);
+WELKIN_STRUCT_TYPE(::WlkHeadlessInputs, WLK_STRUCT_HEADLESS_INPUTS);
 WELKIN_STRUCT_TYPE(::WlkImageData, WLK_STRUCT_IMAGE_DATA);
 WELKIN_STRUCT_TYPE(::WlkFrameStats, WLK_STRUCT_FRAME_STATS);
 WELKIN_STRUCT_TYPE(::WlkErrorEstimate, WLK_STRUCT_ERROR_ESTIMATE);
@@ -78,8 +75,8 @@ WELKIN_STRUCT_TYPE(::WlkVulkanDeviceInfo, WLK_STRUCT_VULKAN_DEVICE_INFO);
 WELKIN_STRUCT_TYPE(::WlkVulkanRequirements, WLK_STRUCT_VULKAN_REQUIREMENTS);
 WELKIN_STRUCT_TYPE(::WlkVulkanImage, WLK_STRUCT_VULKAN_IMAGE);
 WELKIN_STRUCT_TYPE(::WlkVulkanViewTargets, WLK_STRUCT_VULKAN_VIEW_TARGETS);
-WELKIN_STRUCT_TYPE(::WlkShadowMapInfo, WLK_STRUCT_SHADOW_MAP_INFO);
-WELKIN_STRUCT_TYPE(::WlkShadowMapState, WLK_STRUCT_SHADOW_MAP_STATE);
+WELKIN_STRUCT_TYPE(::WlkCloudShadowInfo, WLK_STRUCT_CLOUD_SHADOW_INFO);
+WELKIN_STRUCT_TYPE(::WlkCloudShadowState, WLK_STRUCT_CLOUD_SHADOW_STATE);
 WELKIN_STRUCT_TYPE(::WlkAerialPerspective, WLK_STRUCT_AERIAL_PERSPECTIVE);
 #undef WELKIN_STRUCT_TYPE
 
@@ -145,7 +142,7 @@ class Context {
   Context() noexcept = default;
 #ifndef WELKIN_NO_EXCEPTIONS
   explicit Context(const WlkContextInfo& info) {
-    check(wlkCreateContext(&info, &handle_));
+    check(wlkCreateContext(WLK_API_VERSION, &info, &handle_));
   }
 #endif
   Context(Context&& other) noexcept : handle_(other.release()) {}
@@ -165,7 +162,7 @@ class Context {
   /** Makes a context in place of the one held; on failure the old one stays. */
   WlkResult create(const WlkContextInfo& info) {
     WlkContext made = nullptr;
-    const WlkResult result = wlkCreateContext(&info, &made);
+    const WlkResult result = wlkCreateContext(WLK_API_VERSION, &info, &made);
     if (result >= 0) {
       reset();
       handle_ = made;

@@ -18,7 +18,8 @@
 extern "C" {
 #endif
 
-/** What the engine's instance, device and images must have. */
+/** What the engine's instance, device and images must have. Every library of this major version
+ * needs this and no more; later ones may become faster by features that are told in other ways. */
 typedef struct WlkVulkanRequirements {
   uint32_t sType;
   uint32_t structSize;
@@ -32,23 +33,31 @@ typedef struct WlkVulkanRequirements {
   uint32_t dynamicRendering;
   /** VkPhysicalDeviceFeatures, needed. */
   uint32_t shaderStorageImageWriteWithoutFormat;
-  /** VkPhysicalDeviceFeatures, needed for WLK_COMPOSITE_BLEND only. */
+  /** VkPhysicalDeviceFeatures, both needed for WLK_COMPOSITE_BLEND only
+   *  (WLK_VULKAN_FEATURE_BLEND). */
   uint32_t dualSrcBlend;
+  uint32_t fragmentStoresAndAtomics;
   /** Usage of the engine's images by role. */
   VkImageUsageFlags depthUsage;
   VkImageUsageFlags colorInputUsage;
   VkImageUsageFlags storageTargetUsage;
   VkImageUsageFlags blendTargetUsage;
   VkImageUsageFlags volumeUsage;
-  /** VkPhysicalDeviceFeatures, needed for WLK_COMPOSITE_BLEND only. */
-  uint32_t fragmentStoresAndAtomics;
+  uint32_t reserved0;
 } WlkVulkanRequirements;
 
 /** Fills the requirements. Besides them, the device must filter R32, R32G32 and R32G32B32A32 float
  *  images linearly. [F] */
 WLK_API WlkResult wlkVulkanGetRequirements(WlkVulkanRequirements* requirements);
 
-/** Chained to WlkContextInfo: the engine's device. All fields but pipelineCache are needed. */
+/** Features of the device that not every context needs. */
+enum {
+  /** dualSrcBlend and fragmentStoresAndAtomics of VkPhysicalDeviceFeatures: WLK_COMPOSITE_BLEND. */
+  WLK_VULKAN_FEATURE_BLEND = 1u << 0
+};
+
+/** Chained to WlkContextInfo: the engine's device. Defaults are 0 and null; all fields but
+ *  enabledFeatures and pipelineCache are needed. */
 typedef struct WlkVulkanDeviceInfo {
   uint32_t sType;
   uint32_t structSize;
@@ -61,9 +70,8 @@ typedef struct WlkVulkanDeviceInfo {
   uint32_t apiVersion;
   /** Family of the queue that will run the command buffers. */
   uint32_t queueFamilyIndex;
-  /** 1 if the device was created with dualSrcBlend. Default 0. */
-  uint32_t dualSrcBlendEnabled;
-  uint32_t reserved0;
+  /** Bits WLK_VULKAN_FEATURE_* that the device was created with; others are refused. Default 0. */
+  uint64_t enabledFeatures;
   /** May be VK_NULL_HANDLE. */
   VkPipelineCache pipelineCache;
 } WlkVulkanDeviceInfo;
@@ -76,19 +84,33 @@ typedef struct WlkVulkanImageState {
   VkAccessFlags2 access;
 } WlkVulkanImageState;
 
-/** An image of the engine. Welkin moves it from `before` to what it needs and on to `after`;
- *  `before.layout` must be true (UNDEFINED discards the contents). */
+/** A part of an engine's image: one mip level, and of 2-D arrays one or more layers. Welkin views
+ *  and moves that part alone, from `before` to what it needs and on to `after`; no other mip level
+ *  or layer is touched. `before` must be true: its layout is the part's (UNDEFINED discards what it
+ *  holds), and what stages and access name is waited for. */
 typedef struct WlkVulkanImage {
   uint32_t sType;
   uint32_t structSize;
   const void* next;
+  /** Default null, which is refused. */
   VkImage image;
+  /** Of the view; the image's, or one that it is compatible with. Default UNDEFINED. */
   VkFormat format;
-  /** Pixels or voxels; depth 1 for 2-D images, the number of layers for a shadow map. */
+  /** Texels of the mip level. Default 0. */
   uint32_t width;
   uint32_t height;
+  /** Of 3-D images, else 1. Default 1. */
   uint32_t depth;
+  /** [0, 31], default 0. */
+  uint32_t mipLevel;
+  /** First layer of a 2-D array, else 0. [0, 65535], default 0. */
+  uint32_t baseArrayLayer;
+  /** Layers from it on: 1, of an engine's shadow map up to 2048. Default 1. */
+  uint32_t layerCount;
+  uint32_t reserved0;
+  /** Default UNDEFINED, no stages, no access. */
   WlkVulkanImageState before;
+  /** A real layout. Default UNDEFINED, which is refused. */
   WlkVulkanImageState after;
 } WlkVulkanImage;
 
@@ -108,19 +130,19 @@ typedef struct WlkVulkanViewTargets {
   /** SEPARATE: written. Default null. */
   const WlkVulkanImage* radiance;
   const WlkVulkanImage* transmittance;
-  /** The engine's shadow map and where it lies; both or none. Needs WLK_QUALITY_LIGHT_SHADOWS.
+  /** The engine's shadow map and where it lies; both or none. Needs WLK_QUALITY_FLAG_LIGHT_SHADOWS.
    *  Default null. */
   const WlkLightShadow* lightShadow;
-  /** 2-D of any size, single-sampled, with at least lightShadow->cascadeCount layers (`depth`);
-   *  usage and formats as for `depth`. The image's first mip level is read. */
+  /** 2-D of any size, single-sampled, with at least lightShadow->cascadeCount layers; usage and
+   *  formats as for `depth`. */
   const WlkVulkanImage* shadowMap;
-  /** Aerial perspective (wlkVulkanSetAerialPerspective), 3-D, written in any mode: premultiplied
+  /** Aerial perspective (wlkSetAerialPerspective), 3-D, written in any mode: premultiplied
    *  radiance, times preExposure and in the view's colours, and RGB transmittance; alpha 1. Of one
    *  format, R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT. Both or neither; null: nothing is recorded
    *  for it. Default null. */
   const WlkVulkanImage* aerialRadiance;
   const WlkVulkanImage* aerialTransmittance;
-  /** Distance of the volumes (wlkVulkanSetVolumeDistance), written in any mode. R: mean distance
+  /** Distance of the volumes (wlkSetVolumeDistance), written in any mode. R: mean distance
    *  from the eye at which they hide what lies behind them, along the ray, m; 0 where there are
    *  none. G, of formats that have it: the part of the background that they hide, [0, 1].
    *  R16_SFLOAT, R32_SFLOAT, R16G16_SFLOAT or R32G32_SFLOAT. Default null. */
@@ -129,117 +151,45 @@ typedef struct WlkVulkanViewTargets {
 
 /** Makes a field of a volume read the engine's own 3-D image instead of Welkin's copy; null goes
  *  back. The image has the volume's size and a format R16_SFLOAT, R32_SFLOAT, R16_UNORM or
- *  R8_UNORM; the engine writes it in wlkVulkanCmdUpdate's command buffer order and keeps it alive
- *  until wlkVulkanForgetImage. Values that are negative or not finite count as 0. [C] */
+ *  R8_UNORM. Unlike other images Welkin never moves it: both layouts are SHADER_READ_ONLY_OPTIMAL,
+ *  stages and access are not looked at, and the engine makes the barriers between its writes and
+ *  the compute and fragment shaders of Welkin's commands, which come later in submission order. It
+ *  lives until wlkVulkanForgetImage. Values that are negative or not finite count as 0. [C] Errors:
+ *  WRONG_STATE outside engine-device mode, INVALID_HANDLE, INVALID_ARGUMENT (field, size, layouts),
+ *  UNSUPPORTED_FORMAT, OUT_OF_*. */
 WLK_API WlkResult wlkVulkanSetVolumeImage(WlkContext context, WlkVolume volume, uint32_t field,
                                           const WlkVulkanImage* image);
 
 /** Drops the image views that Welkin made of an image; call it before destroying or recreating
- *  the image. Frames that use it must be complete. [C] */
+ *  the image. Frames that use it must be complete. [C] Errors: WRONG_STATE in CPU mode. */
 WLK_API WlkResult wlkVulkanForgetImage(WlkContext context, VkImage image);
+
+/* ---------------------------------------------------------------------------------- recording */
+
+/* What a successful wlkVulkanCmd... call recorded must be executed, once, in the order of recording
+ * and on a queue of the device info's family: while recording, Welkin takes uploads for done,
+ * images for written and light for computed, and later frames build on that. If the frame is given
+ * up after a call succeeded (a later one fails, the swapchain is out of date), submit the commands
+ * all the same. So give wlkVulkanCmdUpdate a command buffer that will be submitted whatever becomes
+ * of the views, for example one of its own. A call that fails with INVALID_*, UNKNOWN_STRUCT,
+ * STRUCT_TOO_NEW, UNSUPPORTED_FORMAT, NOT_PREPARED or WRONG_STATE has recorded nothing and changed
+ * nothing. After OUT_OF_* and DEVICE_LOST the command buffer holds what is incomplete: throw that
+ * away, but what earlier calls recorded must run. */
 
 /** Records pending uploads. Outside a render pass, once per frame, before the views. After a change
  *  of planet, sky or fog without wlkPrepare it also solves for some of the new light, see there.
- * [C] Errors: WRONG_STATE without wlkBeginFrame; OUT_OF_* after such a change. */
+ * Record it even in frames that draw no view, or uploads wait. [C] Errors: WRONG_STATE without
+ * wlkBeginFrame; OUT_OF_* after such a change. */
 WLK_API WlkResult wlkVulkanCmdUpdate(WlkContext context, VkCommandBuffer commandBuffer);
 
 /** Records a view. Outside a render pass. Afterwards the command buffer's pipelines, descriptor
  *  sets, push constants and dynamic state are undefined. At most once per view and frame. [C]
  *  Errors: WRONG_STATE (also for a shadow map without the quality's flag), NOT_PREPARED,
- *  INVALID_ARGUMENT, UNSUPPORTED_FORMAT. */
+ *  INVALID_ARGUMENT, UNSUPPORTED_FORMAT, OUT_OF_*, DEVICE_LOST. */
 WLK_API WlkResult wlkVulkanCmdRenderView(WlkContext context, VkCommandBuffer commandBuffer,
                                          WlkView view, const WlkVulkanViewTargets* targets);
 
-/* ------------------------------------------------------------------------- aerial perspective */
-
-/** Froxels of a view, for the engine's transparents: what air, fog and volumes put between the eye
- *  and each of them, as the composite has it for an opaque pixel there. Columns go through the
- *  middles of width x height equal parts of the picture; slice k = 0 .. depth - 1 lies at
- *  distance * (k / (depth - 1))^exponent from the eye, along the ray. */
-typedef struct WlkAerialPerspective {
-  uint32_t sType;
-  uint32_t structSize;
-  const void* next;
-  /** Columns across the picture. [1, 2048], default 64 x 36. */
-  uint32_t width;
-  uint32_t height;
-  /** Slices; the first is at the eye and says 0 and 1. [2, 1024], default 32. */
-  uint32_t depth;
-  /** 1: slices are equally far apart; larger: denser towards the eye. [1, 8], default 2. */
-  float exponent;
-  /** Of the last slice from the eye. m, [1, 1e7], default 32000. */
-  float distance;
-  uint32_t reserved0;
-} WlkAerialPerspective;
-
-/** Gives a view froxels, which wlkVulkanCmdRenderView writes to images that it gets; null takes
- *  them away. Another size needs wlkPrepare, exponent and distance do not. [C] Errors:
- *  INVALID_ARGUMENT, WRONG_STATE outside engine-device mode; LIMIT_EXCEEDED by wlkPrepare. */
-WLK_API WlkResult wlkVulkanSetAerialPerspective(WlkContext context, WlkView view,
-                                                const WlkAerialPerspective* aerial);
-
-/* --------------------------------------------------------------------- distance of the volumes */
-
-/** 1: wlkVulkanCmdRenderView may get an image for the volumes' distance, for reprojection and depth
- *  of field; 0, as views begin: it may not. It is the integral of distance x transmittance x
- *  extinction along the ray, up to the opaque surface, over that without the distance: air and fog
- *  do not count, nor does with WLK_SCATTERING_ALL_ORDERS what forward peaks only turn aside. 1
- *  needs wlkPrepare. [C] Errors: INVALID_ARGUMENT, WRONG_STATE outside engine-device mode. */
-WLK_API WlkResult wlkVulkanSetVolumeDistance(WlkContext context, WlkView view, uint32_t enabled);
-
-/* -------------------------------------------------------------------------------- shadow maps */
-
-/** A map of what volumes take from a light, for the engine's own surfaces. */
-typedef struct WlkShadowMap {
-  uint64_t id;
-} WlkShadowMap;
-
-/** What a texel says of the volumes that visible (wlkSetLights) parallel light crosses. */
-enum {
-  /** Optical depth of all of them. R16_SFLOAT or R32_SFLOAT. */
-  WLK_SHADOW_OPTICAL_DEPTH = 0,
-  /** e to the minus that, RGB; alpha 1. R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT. */
-  WLK_SHADOW_TRANSMITTANCE = 1,
-  /** For what stands between or inside them, too. R: optical depth of all of them; G, B: distances
-   * d (m, see WlkShadowMapState) between which it rises evenly: to R * clamp((d - G) / (B - G), 0,
-   *  1). Exact for one homogeneous layer, else its mean and spread are those of the extinction;
-   *  ends go a texel further, so that linear filters may be used.
-   *  A: 0. R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT. */
-  WLK_SHADOW_LAYER = 2
-};
-
-/** An orthographic map along the direction of a light. Texels keep their places in the world while
- *  the light stands still: the middle moves in steps of a texel. Volumes of any height count. */
-typedef struct WlkShadowMapInfo {
-  uint32_t sType;
-  uint32_t structSize;
-  const void* next;
-  /** Texels. [1, 8192], default 512 x 512. */
-  uint32_t width;
-  uint32_t height;
-  /** WLK_SHADOW_*. Default OPTICAL_DEPTH. */
-  uint32_t content;
-  /** Index in wlkSetLights. [0, WlkCapabilities::maxLights - 1], default 0. */
-  uint32_t light;
-  /** What the middle shows, for example the eye. World, m, |x| <= 1e9. Default 0. */
-  double center[3];
-  /** Edges of the area, across the light. m, [1, 1e7], default 20000. */
-  double extent[2];
-  /** Most samples of a volume along the light; one per voxel are taken if that suffices. [8, 4096],
-   *  default 512. */
-  uint32_t maxSamples;
-  uint32_t reserved0;
-} WlkShadowMapInfo;
-
-/** Makes a map; the image is the engine's. [C] Errors: INVALID_ARGUMENT, WRONG_STATE outside
- *  engine-device mode. Needs wlkPrepare. */
-WLK_API WlkResult wlkVulkanCreateShadowMap(WlkContext context, const WlkShadowMapInfo* info,
-                                           WlkShadowMap* map);
-/** Changes it, for example where it lies. Only another size or content needs wlkPrepare. [C] */
-WLK_API WlkResult wlkVulkanSetShadowMap(WlkContext context, WlkShadowMap map,
-                                        const WlkShadowMapInfo* info);
-/** Destroys the map, not the images it was written to. [C] */
-WLK_API WlkResult wlkVulkanDestroyShadowMap(WlkContext context, WlkShadowMap map);
+/* ------------------------------------------------------------------------------- cloud shadows */
 
 /** Writes the map to an image of its size (usage STORAGE), after wlkVulkanCmdUpdate and outside a
  *  render pass; at most once per map and frame. Where light, volumes, area and image are as they
@@ -247,38 +197,8 @@ WLK_API WlkResult wlkVulkanDestroyShadowMap(WlkContext context, WlkShadowMap map
  *  the image's contents, or give UNDEFINED to have them written anew. A field in an engine's image
  *  counts as changed each frame. Without light or volumes the map says so once. [C]
  *  Errors: WRONG_STATE, NOT_PREPARED, INVALID_ARGUMENT, UNSUPPORTED_FORMAT. */
-WLK_API WlkResult wlkVulkanCmdRenderShadowMap(WlkContext context, VkCommandBuffer commandBuffer,
-                                              WlkShadowMap map, const WlkVulkanImage* image);
-
-/** How to read the map that was recorded last, and what that cost. */
-typedef struct WlkShadowMapState {
-  uint32_t sType;
-  uint32_t structSize;
-  const void* next;
-  uint64_t frameIndex;
-  /** Row-major 3x4: (u, v, d) = M * (x, y, z, 1). u, v: [0, 1] over the map, (0, 0) at the outer
-   *  corner of texel (0, 0). d: m along the light, larger is further from it, 0 near `center`. */
-  double mapFromWorld[12];
-  /** Volumes in it. */
-  uint32_t volumes;
-  uint32_t barriers;
-  uint32_t descriptorWrites;
-  /** 1 if commands were recorded, 0 if skipped. */
-  uint32_t recorded;
-  /** Of the whole map: WLK_REASON_NEEDED, UNCHANGED, and for a map without shadow NO_LIGHT,
-   *  NOTHING_TO_DRAW (no volume), ZERO_DENSITY, OUTSIDE_VIEW. */
-  uint32_t reason;
-  /** Dispatches recorded. */
-  uint32_t commands;
-  /** Shader invocations (threads) recorded. */
-  uint64_t invocations;
-  /** GPU time of the newest finished frame, ns; 0 before one finished. */
-  uint64_t gpuTime_ns;
-} WlkShadowMapState;
-
-/** State of the map in the frame that was recorded last. [C] NOT_READY before the first. */
-WLK_API WlkResult wlkVulkanGetShadowMap(WlkContext context, WlkShadowMap map,
-                                        WlkShadowMapState* state);
+WLK_API WlkResult wlkVulkanCmdRenderCloudShadow(WlkContext context, VkCommandBuffer commandBuffer,
+                                                WlkCloudShadow map, const WlkVulkanImage* image);
 
 #ifdef __cplusplus
 }

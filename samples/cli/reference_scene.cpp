@@ -149,7 +149,7 @@ truth::AbsorbingLayer absorbingLayer(const WlkAbsorber& absorber) {
   truth::AbsorbingLayer layer;
   layer.peak = double{absorber.peakAltitude};
   layer.halfWidth = double{absorber.halfWidth};
-  layer.extinction = rgbOf(absorber.extinction);
+  layer.extinction = rgbOf(absorber.absorption);
   return layer;
 }
 

@@ -111,12 +111,15 @@ void run(const RenderOptions& options) {
   host::check(wlkPrepare(context), options.scene, "");
   times.prepare_ms = watch.lap_ms();
 
-  auto targets = host::make<WlkHeadlessTargets>();
+  auto targets = host::make<WlkHeadlessInputs>();
   targets.color = opaque.color.rgba.empty() ? nullptr : opaque.color.rgba.data();
+  targets.colorSize = opaque.color.rgba.size() * sizeof(float);
   targets.depth = opaque.depth.values.empty() ? nullptr : opaque.depth.values.data();
+  targets.depthSize = opaque.depth.values.size() * sizeof(float);
   if (!shadow.depth.empty()) {
     targets.lightShadow = &shadow.place;
     targets.shadowDepth = shadow.depth.data();
+    targets.shadowDepthSize = shadow.depth.size() * sizeof(float);
     targets.shadowWidth = targets.shadowHeight = shadow.size;
   }
   for (uint32_t frame = 0; frame < options.frames; ++frame) {

@@ -22,7 +22,7 @@ const char* passKind(uint32_t pass) {
       return "sky_table";
     case WLK_PASS_VOLUME_LIGHT:
       return "volume_light";
-    case WLK_PASS_SHADOW_MAP:
+    case WLK_PASS_CLOUD_SHADOW:
       return "shadow_map";
     case WLK_PASS_COMPOSITE:
       return "composite";
@@ -40,6 +40,7 @@ Ordered passesOf(const std::vector<WlkPassStats>& passes) {
                     {"reason", wlkReasonName(pass.reason)},
                     {"commands", pass.commands},
                     {"volume", pass.volume.id},
+                    {"surface", pass.surface.id},
                     {"invocations", pass.invocations},
                     {"gpuTime_ns", pass.gpuTime_ns}});
   }

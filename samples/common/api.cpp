@@ -44,17 +44,19 @@ void check(WlkResult result, const char* call) {
   }
 }
 
-void LogCounter::receive(void* user, uint32_t severity, const char* text) {
-  if (severity == WLK_LOG_ERROR || severity == WLK_LOG_WARNING) {
-    static_cast<LogCounter*>(user)->problems += 1;
-    std::fprintf(stderr, "%s: %s\n", severity == WLK_LOG_ERROR ? "error" : "warning", text);
+void LogCounter::receive(void* user, const WlkLogMessage* message) {
+  if (message->severity == WLK_LOG_INFO) {
+    return;
   }
+  const bool error = message->severity == WLK_LOG_ERROR;
+  static_cast<LogCounter*>(user)->problems += message->id == WLK_LOG_ID_VALIDATION ? 1 : 0;
+  std::fprintf(stderr, "%s: %s\n", error ? "error" : "warning", message->text);
 }
 
 ContextPtr makeCpuContext() {
   const auto info = make<WlkContextInfo>();
   WlkContext context = nullptr;
-  check(wlkCreateContext(&info, &context), "wlkCreateContext");
+  check(wlkCreateContext(WLK_API_VERSION, &info, &context), "wlkCreateContext");
   return ContextPtr(context);
 }
 
@@ -67,7 +69,7 @@ ContextPtr makeHeadlessContext(bool validation, const std::string& deviceName, L
   info.log = &LogCounter::receive;
   info.logUser = &log;
   WlkContext context = nullptr;
-  check(wlkCreateContext(&info, &context), "wlkCreateContext");
+  check(wlkCreateContext(WLK_API_VERSION, &info, &context), "wlkCreateContext");
   return ContextPtr(context);
 }
 

@@ -79,8 +79,8 @@ inline constexpr WlkStructType structType(const WlkQualityState&) {
 inline constexpr WlkStructType structType(const WlkLightShadow&) {
   return WLK_STRUCT_LIGHT_SHADOW;
 }
-inline constexpr WlkStructType structType(const WlkHeadlessTargets&) {
-  return WLK_STRUCT_HEADLESS_TARGETS;
+inline constexpr WlkStructType structType(const WlkHeadlessInputs&) {
+  return WLK_STRUCT_HEADLESS_INPUTS;
 }
 inline constexpr WlkStructType structType(const WlkImageData&) {
   return WLK_STRUCT_IMAGE_DATA;
@@ -133,7 +133,7 @@ using ContextPtr = std::unique_ptr<WlkContext_T, ContextDeleter>;
 /// Counts what the library logs as error or warning, and repeats it on stderr.
 struct LogCounter {
   uint32_t problems = 0;
-  static void receive(void* user, uint32_t severity, const char* text);
+  static void receive(void* user, const WlkLogMessage* message);
 };
 
 /// A context without Vulkan.

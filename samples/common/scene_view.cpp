@@ -31,10 +31,10 @@ WlkQuality parseQuality(const JsonNode& node) {
             .word({"default", "single", "forward", "forward-integer", "all-orders"});
   }
   if (node.has("noSkip") && node.at("noSkip").boolean()) {
-    quality.flags |= WLK_QUALITY_NO_SKIP;
+    quality.flags |= WLK_QUALITY_FLAG_NO_SKIP;
   }
   if (node.has("volumeShadows") && node.at("volumeShadows").boolean()) {
-    quality.flags |= WLK_QUALITY_VOLUME_SHADOWS;
+    quality.flags |= WLK_QUALITY_FLAG_VOLUME_SHADOWS;
   }
   return quality;
 }
@@ -66,9 +66,9 @@ WlkViewInfo parseViewInfo(const JsonNode& node) {
                          : uint32_t{WLK_COMPOSITE_SEPARATE};
   }
   if (node.has("color")) {
-    view.color = node.at("color").word({"wavelengths", "srgb"}) == 0
-                     ? uint32_t{WLK_COLOR_WAVELENGTHS}
-                     : uint32_t{WLK_COLOR_SRGB};
+    view.colorSpace = node.at("color").word({"wavelengths", "srgb"}) == 0
+                          ? uint32_t{WLK_COLOR_WAVELENGTHS}
+                          : uint32_t{WLK_COLOR_LINEAR_SRGB};
   }
   return view;
 }
@@ -161,7 +161,7 @@ void parseOpaque(const JsonNode& node, Scene& scene) {
     }
     if (node.has("shadows") && node.at("shadows").boolean()) {
       scene.geometry->shadows = true;
-      scene.quality.flags |= WLK_QUALITY_LIGHT_SHADOWS;
+      scene.quality.flags |= WLK_QUALITY_FLAG_LIGHT_SHADOWS;
     }
     return;
   }

@@ -65,7 +65,7 @@ WlkSky parseSky(const JsonNode& node, const WlkSky& initial) {
 WlkAbsorber parseAbsorber(const JsonNode& node, const WlkAbsorber& initial) {
   node.onlyKeys({"extinction", "peakAltitude", "halfWidth"});
   WlkAbsorber absorber = initial;
-  node.optional("extinction", absorber.extinction);
+  node.optional("extinction", absorber.absorption);
   node.optional("peakAltitude", absorber.peakAltitude);
   node.optional("halfWidth", absorber.halfWidth);
   return absorber;

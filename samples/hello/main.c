@@ -120,7 +120,7 @@ int main(void) {
   INIT(WLK_STRUCT_CONTEXT_INFO, contextInfo);
   INIT(WLK_STRUCT_HEADLESS_INFO, headless);
   contextInfo.next = &headless;
-  check(wlkCreateContext(&contextInfo, &context));
+  check(wlkCreateContext(WLK_API_VERSION, &contextInfo, &context));
   setScene(context);
 
   WlkViewInfo viewInfo;

@@ -13,8 +13,10 @@ namespace {
 using welkin::check;
 using welkin::make;
 
-void onMessage(void*, uint32_t, const char* text) {
-  std::fprintf(stderr, "welkin: %s\n", text);
+void onMessage(void*, const WlkLogMessage* message) {
+  if (message->severity != WLK_LOG_INFO) {
+    std::fprintf(stderr, "welkin: %s\n", message->text);
+  }
 }
 
 welkin::Context makeContext(const Gpu& gpu, uint32_t framesInFlight) {
@@ -25,7 +27,7 @@ welkin::Context makeContext(const Gpu& gpu, uint32_t framesInFlight) {
   device.device = gpu.device();
   device.apiVersion = VK_API_VERSION_1_3;
   device.queueFamilyIndex = gpu.family();
-  device.dualSrcBlendEnabled = 1;
+  device.enabledFeatures = WLK_VULKAN_FEATURE_BLEND;
   WlkContextInfo info = make<WlkContextInfo>();
   info.next = &device;
   info.maxFramesInFlight = framesInFlight;

@@ -2,7 +2,7 @@
 // Aerial perspective in the engine's images.
 #include <welkin/welkin_vulkan.h>
 
-#include "api/context.hpp"
+#include "api/engine_image.hpp"
 
 namespace {
 
@@ -21,20 +21,8 @@ WlkAerialPerspective checkedAerial(const WlkAerialPerspective* aerial) {
 
 TargetImage froxelImage(WlkContext_T& c, const WlkVulkanImage* image, const char* role,
                         const WlkAerialPerspective& aerial) {
-  const WlkVulkanImage i = copyStruct(image, WLK_STRUCT_VULKAN_IMAGE);
-  checkNoChain(image);
-  if (i.image == VK_NULL_HANDLE) {
-    fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, role, "WlkVulkanImage::image of %s is null", role);
-  }
-  if (i.width != aerial.width || i.height != aerial.height || i.depth != aerial.depth) {
-    fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, role,
-         "%s has %u x %u x %u texels, the aerial perspective %u x %u x %u", role, i.width, i.height,
-         i.depth, aerial.width, aerial.height, aerial.depth);
-  }
-  if (i.after.layout == VK_IMAGE_LAYOUT_UNDEFINED ||
-      i.after.layout == VK_IMAGE_LAYOUT_PREINITIALIZED) {
-    fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, role, "%s: after.layout must be a real layout", role);
-  }
+  const WlkVulkanImage i = checkedEngineImage(image, role);
+  checkImageSize(i, role, "aerial perspective", aerial.width, aerial.height, aerial.depth);
   if (i.format != VK_FORMAT_R16G16B16A16_SFLOAT && i.format != VK_FORMAT_R32G32B32A32_SFLOAT) {
     fail(WLK_ERROR_UNSUPPORTED_FORMAT, i.sType, role,
          "%s has VkFormat %d, expected R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT", role,
@@ -44,12 +32,7 @@ TargetImage froxelImage(WlkContext_T& c, const WlkVulkanImage* image, const char
     fail(WLK_ERROR_UNSUPPORTED_FORMAT, i.sType, role, "the device cannot store to VkFormat %d",
          static_cast<int>(i.format));
   }
-  TargetImage target;
-  target.image = i.image;
-  target.view = importView(c, i, VK_IMAGE_VIEW_TYPE_3D, VK_IMAGE_ASPECT_COLOR_BIT);
-  target.before = i.before;
-  target.after = i.after;
-  return target;
+  return importTarget(c, i, VK_IMAGE_VIEW_TYPE_3D);
 }
 
 }  // namespace
@@ -63,7 +46,7 @@ void importAerial(WlkContext_T& c, const ViewState& view, const WlkVulkanViewTar
   }
   if (!view.aerial) {
     fail(WLK_ERROR_WRONG_STATE, WLK_STRUCT_VULKAN_VIEW_TARGETS, "aerialRadiance",
-         "the view has no aerial perspective: call wlkVulkanSetAerialPerspective");
+         "the view has no aerial perspective: call wlkSetAerialPerspective");
   }
   if (t.aerialRadiance == nullptr || t.aerialTransmittance == nullptr) {
     const char* missing = t.aerialRadiance == nullptr ? "aerialRadiance" : "aerialTransmittance";
@@ -83,13 +66,13 @@ void importAerial(WlkContext_T& c, const ViewState& view, const WlkVulkanViewTar
 
 }  // namespace welkin
 
-WlkResult wlkVulkanSetAerialPerspective(WlkContext context, WlkView view,
-                                        const WlkAerialPerspective* aerial) {
+WlkResult wlkSetAerialPerspective(WlkContext context, WlkView view,
+                                  const WlkAerialPerspective* aerial) {
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
     if (c.mode != WLK_MODE_ENGINE_DEVICE) {
       fail(WLK_ERROR_WRONG_STATE, 0, "context",
-           "wlkVulkanSetAerialPerspective needs an engine-device context");
+           "wlkSetAerialPerspective needs an engine-device context");
     }
     ViewState& state = c.view(view);
     if (aerial == nullptr) {

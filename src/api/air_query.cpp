@@ -21,7 +21,7 @@ AirQuery airQueryOf(const AirState& state, uint32_t index) {
   }
   if (state.sky && state.absorber) {
     for (int i = 0; i < 3; ++i) {
-      q.air.absorption[i] = state.absorber->extinction[i];
+      q.air.absorption[i] = state.absorber->absorption[i];
     }
     q.air.absorberPeak = state.absorber->peakAltitude;
     q.air.absorberWidth = state.absorber->halfWidth;

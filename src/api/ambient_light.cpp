@@ -221,6 +221,8 @@ WlkResult wlkSetAmbient(WlkContext context, const WlkAmbient* ambient) {
     if (ambient != nullptr) {
       value = checkedAmbient(ambient);
       value.next = nullptr;
+    } else {
+      wlkInitStruct(WLK_STRUCT_AMBIENT, sizeof value, &value);
     }
     const bool before = c.ambientActive();
     c.air.ambient = value;

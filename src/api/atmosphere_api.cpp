@@ -31,19 +31,19 @@ WlkSky checkedSky(const WlkSky* sky) {
 WlkAbsorber checkedAbsorber(const WlkAbsorber* absorber) {
   const WlkAbsorber a = copyStruct(absorber, WLK_STRUCT_ABSORBER);
   checkNoChain(absorber);
-  checkRange3(a.sType, "extinction", a.extinction, 0, 1);
+  checkRange3(a.sType, "absorption", a.absorption, 0, 1);
   checkRange(a.sType, "peakAltitude", a.peakAltitude, 0, 1e5);
   checkRange(a.sType, "halfWidth", a.halfWidth, 100, 1e5);
   return a;
 }
 
 bool absorbs(const std::optional<WlkAbsorber>& absorber) {
-  return absorber && (absorber->extinction[0] > 0 || absorber->extinction[1] > 0 ||
-                      absorber->extinction[2] > 0);
+  return absorber && (absorber->absorption[0] > 0 || absorber->absorption[1] > 0 ||
+                      absorber->absorption[2] > 0);
 }
 
 WlkLight checkedLight(const WlkLight* light) {
-  const WlkLight l = copyStruct(light, WLK_STRUCT_LIGHT, LIGHT_FIRST_SIZE);
+  const WlkLight l = copyStruct(light, WLK_STRUCT_LIGHT);
   checkNoChain(light);
   checkUnit(l.sType, "direction", l.direction);
   checkRange(l.sType, "angularDiameter", l.angularDiameter, 0, double{0.2f});
@@ -56,7 +56,7 @@ WlkLight checkedLight(const WlkLight* light) {
 }
 
 WlkFog checkedFog(const WlkFog* fog) {
-  const WlkFog f = copyStruct(fog, WLK_STRUCT_FOG, FOG_FIRST_SIZE);
+  const WlkFog f = copyStruct(fog, WLK_STRUCT_FOG);
   checkNoChain(fog);
   checkRange(f.sType, "dropletDiameter_um", f.dropletDiameter_um, 0.1f, 50);
   checkRange(f.sType, "phaseModel", f.phaseModel, WLK_PHASE_DEFAULT, WLK_PHASE_TABLE);
@@ -198,15 +198,16 @@ WlkResult wlkSetLights(WlkContext context, uint32_t count, uint32_t stride,
     }
     std::array<WlkLight, MAX_LIGHTS> values{};
     for (uint32_t i = 0; i < count; ++i) {
-      // Elements of an older header are shorter: each says how long it is.
-      if (stride < LIGHT_FIRST_SIZE) {
-        failStride(stride, LIGHT_FIRST_SIZE);
+      if (stride < FIRST_SIZE<WlkLight>) {
+        failStride(stride, FIRST_SIZE<WlkLight>);
       }
       const auto* light = reinterpret_cast<const WlkLight*>(reinterpret_cast<const char*>(lights) +
                                                             size_t{i} * stride);
       values[i] = checkedLight(light);
-      if (light->structSize != LIGHT_FIRST_SIZE && stride < sizeof(WlkLight)) {
-        failStride(stride, sizeof(WlkLight));
+      // Elements of an older header are shorter: each says how long it is.
+      const size_t known = std::min<size_t>(light->structSize, sizeof(WlkLight));
+      if (stride < known) {
+        failStride(stride, known);
       }
     }
     const bool before = c.shapedDisk();

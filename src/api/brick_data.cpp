@@ -32,6 +32,8 @@ uint8_t readBrick(const Edges& size, const Edges& brick, const unsigned char* da
       const unsigned char* row = data + size_t{z * BRICK_EDGE + y} * BRICK_EDGE * voxel;
       for (uint32_t x = 0; x < end[0]; ++x) {
         const float value = keptVoxel(row + x * voxel, format);
+        const float raw = rawVoxel(row + x * voxel, format);
+        sums.replaced += readVoxel(row + x * voxel, format) != raw ? 1U : 0U;
         if (value > 0.0f) {
           addVoxel(
               sums, value,

@@ -13,8 +13,8 @@ using namespace welkin;
 
 // The chain of WlkContextInfo: at most one device structure.
 struct ContextChain {
-  const WlkVulkanDeviceInfo* device = nullptr;
-  const WlkHeadlessInfo* headless = nullptr;
+  std::optional<WlkVulkanDeviceInfo> device;
+  std::optional<WlkHeadlessInfo> headless;
 };
 
 ContextChain readChain(const void* next) {
@@ -22,12 +22,10 @@ ContextChain readChain(const void* next) {
   for (; next != nullptr;) {
     StructHeader header;
     std::memcpy(&header, next, sizeof header);
-    if (header.sType == WLK_STRUCT_VULKAN_DEVICE_INFO && chain.device == nullptr) {
-      checkHeader(next, header.sType, sizeof(WlkVulkanDeviceInfo));
-      chain.device = static_cast<const WlkVulkanDeviceInfo*>(next);
-    } else if (header.sType == WLK_STRUCT_HEADLESS_INFO && chain.headless == nullptr) {
-      checkHeader(next, header.sType, sizeof(WlkHeadlessInfo));
-      chain.headless = static_cast<const WlkHeadlessInfo*>(next);
+    if (header.sType == WLK_STRUCT_VULKAN_DEVICE_INFO && !chain.device) {
+      chain.device = copyStruct(static_cast<const WlkVulkanDeviceInfo*>(next), header.sType);
+    } else if (header.sType == WLK_STRUCT_HEADLESS_INFO && !chain.headless) {
+      chain.headless = copyStruct(static_cast<const WlkHeadlessInfo*>(next), header.sType);
       if ((chain.headless->flags & ~uint64_t{WLK_HEADLESS_VALIDATION}) != 0) {
         fail(WLK_ERROR_INVALID_ARGUMENT, header.sType, "flags",
              "WlkHeadlessInfo::flags has unknown bits");
@@ -39,7 +37,7 @@ ContextChain readChain(const void* next) {
     }
     next = header.next;
   }
-  if (chain.device != nullptr && chain.headless != nullptr) {
+  if (chain.device && chain.headless) {
     fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_CONTEXT_INFO, "next",
          "WlkVulkanDeviceInfo and WlkHeadlessInfo exclude each other");
   }
@@ -69,7 +67,12 @@ vk::DeviceInfo deviceInfoOf(const WlkVulkanDeviceInfo& info) {
   result.device = info.device;
   result.pipelineCache = info.pipelineCache;
   result.queueFamilyIndex = info.queueFamilyIndex;
-  result.dualSrcBlend = info.dualSrcBlendEnabled != 0;
+  constexpr uint64_t KNOWN = WLK_VULKAN_FEATURE_BLEND;
+  if ((info.enabledFeatures & ~KNOWN) != 0) {
+    fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_VULKAN_DEVICE_INFO, "enabledFeatures",
+         "WlkVulkanDeviceInfo::enabledFeatures has unknown bits");
+  }
+  result.blend = (info.enabledFeatures & WLK_VULKAN_FEATURE_BLEND) != 0;
   return result;
 }
 
@@ -91,6 +94,26 @@ void checkQueueFamily(const vk::Device& device, std::pmr::memory_resource* memor
   }
 }
 
+// What was enabled on the device cannot be asked, but what it has.
+void checkFeatures(const vk::Device& device) {
+  VkPhysicalDeviceFeatures has{};
+  device.vk().GetPhysicalDeviceFeatures(device.info().physicalDevice, &has);
+  if (device.info().blend && !vk::canBlend(has)) {
+    fail(WLK_ERROR_MISSING_FEATURE, WLK_STRUCT_VULKAN_DEVICE_INFO, "enabledFeatures",
+         "WLK_VULKAN_FEATURE_BLEND: the device lacks %s",
+         has.dualSrcBlend == VK_TRUE ? "fragmentStoresAndAtomics" : "dualSrcBlend");
+  }
+}
+
+// A caller of a newer minor version is welcome: what this library does not know of it is refused
+// where it is used. 0 is what a caller passes who does not know the argument.
+void checkVersion(uint32_t apiVersion) {
+  if (apiVersion == 0 || apiVersion >> 22 != WLK_VERSION_MAJOR) {
+    fail(WLK_ERROR_VERSION, 0, "apiVersion", "built against %u.%u, this library is %d.%d",
+         apiVersion >> 22, apiVersion >> 12 & 0x3ff, WLK_VERSION_MAJOR, WLK_VERSION_MINOR);
+  }
+}
+
 // A number for a pool's handles that none of the last 65535 pools of the process had: a handle of
 // another kind, or of a destroyed context whose address was handed out again, is never found.
 uint16_t nextTag() {
@@ -109,8 +132,9 @@ vk::Image makeDummy(vk::Device& device, VkImageType type, bool layers = false) {
 
 }  // namespace
 
-WlkContext_T::WlkContext_T(const WlkContextInfo& contextInfo)
-    : maxFramesInFlight(contextInfo.maxFramesInFlight),
+WlkContext_T::WlkContext_T(uint32_t callersVersion, const WlkContextInfo& contextInfo)
+    : apiVersion(callersVersion),
+      maxFramesInFlight(contextInfo.maxFramesInFlight),
       log(contextInfo.log),
       logUser(contextInfo.logUser),
       memory(contextInfo.allocator),
@@ -129,7 +153,7 @@ WlkContext_T::WlkContext_T(const WlkContextInfo& contextInfo)
   wlkInitStruct(WLK_STRUCT_PLANET, sizeof air.planet, &air.planet);
   wlkInitStruct(WLK_STRUCT_AMBIENT, sizeof air.ambient, &air.ambient);
   const ContextChain chain = readChain(contextInfo.next);
-  if (chain.headless != nullptr) {
+  if (chain.headless) {
     vk::HeadlessOptions options;
     options.deviceName = chain.headless->deviceName;
     options.validation = (chain.headless->flags & WLK_HEADLESS_VALIDATION) != 0;
@@ -141,11 +165,12 @@ WlkContext_T::WlkContext_T(const WlkContextInfo& contextInfo)
     device.emplace(own, &memory);
     headless->attach(*device);
     mode = WLK_MODE_HEADLESS;
-  } else if (chain.device != nullptr) {
+  } else if (chain.device) {
     vk::DeviceInfo engines = deviceInfoOf(*chain.device);
     engines.memoryLimit = contextInfo.deviceMemoryLimit;
     device.emplace(engines, &memory);
     checkQueueFamily(*device, &memory);
+    checkFeatures(*device);
     mode = WLK_MODE_ENGINE_DEVICE;
   }
   if (device) {
@@ -307,12 +332,6 @@ void WlkContext_T::collect() {
   }
 }
 
-void WlkContext_T::emit(uint32_t severity, const char* text) const {
-  if (log != nullptr) {
-    log(logUser, severity, text);
-  }
-}
-
 namespace welkin {
 
 WlkContext_T& checkContext(WlkContext context) {
@@ -325,17 +344,12 @@ WlkContext_T& checkContext(WlkContext context) {
 
 }  // namespace welkin
 
-WlkResult wlkCreateContext(const WlkContextInfo* info, WlkContext* context) {
+WlkResult wlkCreateContext(uint32_t apiVersion, const WlkContextInfo* info, WlkContext* context) {
   return guarded([&] {
     checkPointer(context, "context");
     *context = nullptr;
-    const WlkContextInfo copy = copyStruct(info, WLK_STRUCT_CONTEXT_INFO, CONTEXT_FIRST_SIZE);
-    // 0.x: the minor version is the compatibility line.
-    if (copy.apiVersion >> 12 != WLK_API_VERSION >> 12) {
-      fail(WLK_ERROR_VERSION, WLK_STRUCT_CONTEXT_INFO, "apiVersion",
-           "built against %u.%u, this library is %d.%d", copy.apiVersion >> 22,
-           copy.apiVersion >> 12 & 0x3ff, WLK_VERSION_MAJOR, WLK_VERSION_MINOR);
-    }
+    checkVersion(apiVersion);
+    const WlkContextInfo copy = copyStruct(info, WLK_STRUCT_CONTEXT_INFO);
     checkRange(WLK_STRUCT_CONTEXT_INFO, "maxFramesInFlight", copy.maxFramesInFlight, 1, 8);
     if ((copy.allocator.allocate == nullptr) != (copy.allocator.release == nullptr)) {
       fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_CONTEXT_INFO, "allocator",
@@ -345,7 +359,7 @@ WlkResult wlkCreateContext(const WlkContextInfo* info, WlkContext* context) {
     std::pmr::memory_resource& resource = memory;
     void* place = resource.allocate(sizeof(WlkContext_T), alignof(WlkContext_T));
     try {
-      *context = new (place) WlkContext_T(copy);
+      *context = new (place) WlkContext_T(apiVersion, copy);
     } catch (...) {
       resource.deallocate(place, sizeof(WlkContext_T), alignof(WlkContext_T));
       throw;
@@ -367,21 +381,17 @@ void wlkDestroyContext(WlkContext context) {
 WlkResult wlkGetCapabilities(WlkContext context, WlkCapabilities* capabilities) {
   return guarded([&] {
     const WlkContext_T& c = checkContext(context);
-    checkOutput(capabilities, WLK_STRUCT_CAPABILITIES, sizeof *capabilities);
-    capabilities->mode = c.mode;
-    capabilities->maxLights = MAX_LIGHTS;
-    capabilities->vulkanVersion = 0;
-    capabilities->maxVolumeSize = 0;
-    capabilities->blendSupported = 0;
-    capabilities->deviceName[0] = '\0';
+    WlkCapabilities value = startOutput(capabilities, WLK_STRUCT_CAPABILITIES);
+    value.mode = c.mode;
+    value.maxLights = MAX_LIGHTS;
     if (c.device) {
       const VkPhysicalDeviceProperties& properties = c.device->properties();
-      capabilities->vulkanVersion = properties.apiVersion;
-      capabilities->maxVolumeSize = properties.limits.maxImageDimension3D;
-      capabilities->blendSupported = c.device->info().dualSrcBlend && !c.headless ? 1 : 0;
-      std::snprintf(capabilities->deviceName, sizeof capabilities->deviceName, "%s",
-                    properties.deviceName);
+      value.vulkanVersion = properties.apiVersion;
+      value.maxVolumeSize = properties.limits.maxImageDimension3D;
+      value.blendSupported = c.device->info().blend && !c.headless ? 1 : 0;
+      std::snprintf(value.deviceName, sizeof value.deviceName, "%s", properties.deviceName);
     }
+    finishOutput(value, capabilities);
     return WLK_SUCCESS;
   });
 }

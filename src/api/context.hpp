@@ -62,7 +62,9 @@ struct ImportedView {
   VkImage image;
   VkImageViewType type;
   VkFormat format;
-  uint32_t layers;
+  uint32_t mipLevel;
+  uint32_t baseArrayLayer;
+  uint32_t layerCount;
   VkImageView view;
 };
 
@@ -70,12 +72,13 @@ struct ImportedView {
 
 // Members in order of dependence: destroyed from the last to the first.
 struct WlkContext_T {
-  explicit WlkContext_T(const WlkContextInfo& contextInfo);
+  WlkContext_T(uint32_t callersVersion, const WlkContextInfo& contextInfo);
   ~WlkContext_T();
   WlkContext_T(const WlkContext_T&) = delete;
   WlkContext_T& operator=(const WlkContext_T&) = delete;
 
   uint32_t magic = welkin::CONTEXT_MAGIC;
+  uint32_t apiVersion = 0;  // of the caller's headers
   uint32_t mode = WLK_MODE_CPU;
   uint32_t maxFramesInFlight = 3;
   WlkLogCallback log = nullptr;
@@ -124,8 +127,8 @@ struct WlkContext_T {
            (air.ambient.mode == WLK_AMBIENT_AUTOMATIC && (air.sky || fogActive()));
   }
   bool absorbs() const {
-    return air.absorber && (air.absorber->extinction[0] > 0 || air.absorber->extinction[1] > 0 ||
-                            air.absorber->extinction[2] > 0);
+    return air.absorber && (air.absorber->absorption[0] > 0 || air.absorber->absorption[1] > 0 ||
+                            air.absorber->absorption[2] > 0);
   }
   bool shapedDisk() const {
     return std::any_of(air.lights.begin(), air.lights.begin() + air.lightCount,
@@ -144,7 +147,9 @@ struct WlkContext_T {
   // Reads the times of finished frames, unless there is no device any more that could tell.
   void harvest(welkin::ViewState& view);
   void collect();
-  void emit(uint32_t severity, const char* text) const;
+  // To the caller's log, if there is one. One sentence; the id is one of WLK_LOG_ID_*.
+  __attribute__((format(printf, 4, 5))) void emit(uint32_t severity, uint32_t id,
+                                                  const char* format, ...) const;
 };
 
 namespace welkin {
@@ -182,9 +187,5 @@ void recordUpdate(WlkContext_T& context, VkCommandBuffer commands);
 // Plans the view's frame and records it.
 void recordFrame(WlkContext_T& context, VkCommandBuffer commands, ViewState& view,
                  const ViewTargets& targets);
-
-// View of an engine's image from the cache, made when it is new.
-VkImageView importView(WlkContext_T& context, const WlkVulkanImage& image, VkImageViewType type,
-                       VkImageAspectFlags aspect, uint32_t layers = 1);
 
 }  // namespace welkin

@@ -47,7 +47,7 @@ WlkResult wlkGetQualityState(WlkContext context, WlkView view, WlkQualityState* 
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
     ViewState& v = c.view(view);
-    checkOutput(state, WLK_STRUCT_QUALITY_STATE, sizeof *state);
+    WlkQualityState value = startOutput(state, WLK_STRUCT_QUALITY_STATE);
     const bool control = governed(v.quality);
     if (control) {
       c.harvest(v);
@@ -56,20 +56,21 @@ WlkResult wlkGetQualityState(WlkContext context, WlkView view, WlkQualityState* 
     const SliceQuality quality =
         control ? rungQuality(v.quality, governor.rung) : resolveQuality(v.quality);
     const RungRange range = rungRange(v.quality);
-    state->control = v.quality.control;
-    state->reason = control ? governor.reason : uint32_t{WLK_CONTROL_REASON_NONE};
-    state->rung = control ? governor.rung : range.highest;
-    state->lowestRung = control ? range.lowest : range.highest;
-    state->highestRung = range.highest;
-    state->sliceCount = quality.sliceCount;
-    state->batchSize = quality.batchSize;
-    state->lightBufferSize = quality.lightSize;
-    state->volumeCells = quality.transportCells;
-    state->time_ms = control ? static_cast<float>(governor.time) : 0.0f;
-    state->predictedTime_ms = control ? static_cast<float>(governor.predicted) : 0.0f;
-    state->relativeError = control ? static_cast<float>(governor.error) : 0.0f;
-    state->sinceFrame = control ? governor.since : 0;
-    state->switches = control ? governor.switches : 0;
+    value.control = v.quality.control;
+    value.reason = control ? governor.reason : uint32_t{WLK_CONTROL_REASON_NONE};
+    value.rung = control ? governor.rung : range.highest;
+    value.lowestRung = control ? range.lowest : range.highest;
+    value.highestRung = range.highest;
+    value.sliceCount = quality.sliceCount;
+    value.batchSize = quality.batchSize;
+    value.lightBufferSize = quality.lightSize;
+    value.volumeCells = quality.transportCells;
+    value.time_ms = control ? static_cast<float>(governor.time) : 0.0f;
+    value.predictedTime_ms = control ? static_cast<float>(governor.predicted) : 0.0f;
+    value.relativeError = control ? static_cast<float>(governor.error) : 0.0f;
+    value.sinceFrame = control ? governor.since : 0;
+    value.switches = control ? governor.switches : 0;
+    finishOutput(value, state);
     return WLK_SUCCESS;
   });
 }

@@ -19,14 +19,13 @@ T blank(uint32_t sType) {
   return value;
 }
 
-// A caller's header may be the one that introduced the structure, with `firstSize` (0: ours).
+// The caller's header may be older: as much as it knows.
 template <typename T>
-void write(const T& value, uint32_t structSize, void* structure, uint32_t firstSize = 0) {
-  const bool ofFirst = firstSize > 0 && structSize == firstSize;
-  if (structSize < sizeof(T) && !ofFirst) {
+void write(const T& value, uint32_t structSize, void* structure) {
+  if (structSize < FIRST_SIZE<T>) {
     fail(WLK_ERROR_INVALID_ARGUMENT, value.sType, "structSize",
-         "%s::structSize is %u, expected at least %zu", structName(value.sType), structSize,
-         sizeof(T));
+         "%s::structSize is %u, expected at least %u", structName(value.sType), structSize,
+         FIRST_SIZE<T>);
   }
   std::memset(structure, 0, structSize);
   std::memcpy(structure, &value, std::min<size_t>(structSize, sizeof value));
@@ -78,7 +77,7 @@ WlkFog fog() {
 
 WlkAbsorber absorber() {
   auto a = blank<WlkAbsorber>(WLK_STRUCT_ABSORBER);
-  assign(a.extinction, {2.7e-6f, 1.7e-6f, 8.5e-8f});
+  assign(a.absorption, {2.7e-6f, 1.7e-6f, 8.5e-8f});
   a.peakAltitude = 25000.0f;
   a.halfWidth = 15000.0f;
   return a;
@@ -155,7 +154,6 @@ WlkQuality quality() {
 
 WlkContextInfo context() {
   auto c = blank<WlkContextInfo>(WLK_STRUCT_CONTEXT_INFO);
-  c.apiVersion = WLK_API_VERSION;
   c.maxFramesInFlight = 3;
   return c;
 }
@@ -172,8 +170,8 @@ WlkSkyMapQuery skyMap() {
   return q;
 }
 
-WlkShadowMapInfo shadowMap() {
-  auto m = blank<WlkShadowMapInfo>(WLK_STRUCT_SHADOW_MAP_INFO);
+WlkCloudShadowInfo shadowMap() {
+  auto m = blank<WlkCloudShadowInfo>(WLK_STRUCT_CLOUD_SHADOW_INFO);
   m.width = m.height = 512;
   m.extent[0] = m.extent[1] = 20000;
   m.maxSamples = 512;
@@ -200,6 +198,13 @@ WlkAerialPerspective aerial() {
   return a;
 }
 
+WlkVulkanImage vulkanImage() {
+  auto i = blank<WlkVulkanImage>(WLK_STRUCT_VULKAN_IMAGE);
+  i.depth = 1;
+  i.layerCount = 1;
+  return i;
+}
+
 WlkPhaseQuery phaseQuery() {
   auto q = blank<WlkPhaseQuery>(WLK_STRUCT_PHASE_QUERY);
   q.order = 1;
@@ -212,19 +217,21 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
     case WLK_STRUCT_ERROR_INFO:
       return write(blank<WlkErrorInfo>(sType), structSize, structure);
     case WLK_STRUCT_CONTEXT_INFO:
-      return write(context(), structSize, structure, CONTEXT_FIRST_SIZE);
+      return write(context(), structSize, structure);
     case WLK_STRUCT_HEADLESS_INFO:
       return write(blank<WlkHeadlessInfo>(sType), structSize, structure);
     case WLK_STRUCT_CAPABILITIES:
       return write(blank<WlkCapabilities>(sType), structSize, structure);
+    case WLK_STRUCT_LOG_MESSAGE:
+      return write(blank<WlkLogMessage>(sType), structSize, structure);
     case WLK_STRUCT_PLANET:
       return write(planet(), structSize, structure);
     case WLK_STRUCT_SKY:
       return write(sky(), structSize, structure);
     case WLK_STRUCT_LIGHT:
-      return write(light(), structSize, structure, LIGHT_FIRST_SIZE);
+      return write(light(), structSize, structure);
     case WLK_STRUCT_FOG:
-      return write(fog(), structSize, structure, FOG_FIRST_SIZE);
+      return write(fog(), structSize, structure);
     case WLK_STRUCT_ABSORBER:
       return write(absorber(), structSize, structure);
     case WLK_STRUCT_AMBIENT:
@@ -246,18 +253,17 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
     case WLK_STRUCT_VOLUME_STATE:
       return write(blank<WlkVolumeState>(sType), structSize, structure);
     case WLK_STRUCT_VIEW_INFO:
-      return write(view(), structSize, structure, VIEW_FIRST_SIZE);
+      return write(view(), structSize, structure);
     case WLK_STRUCT_CAMERA:
       return write(camera(), structSize, structure);
     case WLK_STRUCT_QUALITY:
-      return write(quality(), structSize, structure, QUALITY_FIRST_SIZE);
+      return write(quality(), structSize, structure);
     case WLK_STRUCT_QUALITY_STATE:
       return write(blank<WlkQualityState>(sType), structSize, structure);
     case WLK_STRUCT_FRAME_INFO:
       return write(blank<WlkFrameInfo>(sType), structSize, structure);
-    case WLK_STRUCT_HEADLESS_TARGETS:
-      return write(blank<WlkHeadlessTargets>(sType), structSize, structure,
-                   HEADLESS_TARGETS_FIRST_SIZE);
+    case WLK_STRUCT_HEADLESS_INPUTS:
+      return write(blank<WlkHeadlessInputs>(sType), structSize, structure);
     case WLK_STRUCT_IMAGE_DATA:
       return write(blank<WlkImageData>(sType), structSize, structure);
     case WLK_STRUCT_FRAME_STATS:
@@ -267,7 +273,7 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
     case WLK_STRUCT_LIGHT_SHADOW:
       return write(lightShadow(), structSize, structure);
     case WLK_STRUCT_RAY_BATCH:
-      return write(rays(), structSize, structure, RAY_BATCH_FIRST_SIZE);
+      return write(rays(), structSize, structure);
     case WLK_STRUCT_SKY_MAP_QUERY:
       return write(skyMap(), structSize, structure);
     case WLK_STRUCT_PHASE_QUERY:
@@ -277,14 +283,13 @@ void writeDefault(uint32_t sType, uint32_t structSize, void* structure) {
     case WLK_STRUCT_VULKAN_REQUIREMENTS:
       return write(blank<WlkVulkanRequirements>(sType), structSize, structure);
     case WLK_STRUCT_VULKAN_IMAGE:
-      return write(blank<WlkVulkanImage>(sType), structSize, structure);
+      return write(vulkanImage(), structSize, structure);
     case WLK_STRUCT_VULKAN_VIEW_TARGETS:
-      return write(blank<WlkVulkanViewTargets>(sType), structSize, structure,
-                   VIEW_TARGETS_FIRST_SIZE);
-    case WLK_STRUCT_SHADOW_MAP_INFO:
+      return write(blank<WlkVulkanViewTargets>(sType), structSize, structure);
+    case WLK_STRUCT_CLOUD_SHADOW_INFO:
       return write(shadowMap(), structSize, structure);
-    case WLK_STRUCT_SHADOW_MAP_STATE:
-      return write(blank<WlkShadowMapState>(sType), structSize, structure);
+    case WLK_STRUCT_CLOUD_SHADOW_STATE:
+      return write(blank<WlkCloudShadowState>(sType), structSize, structure);
     case WLK_STRUCT_AERIAL_PERSPECTIVE:
       return write(aerial(), structSize, structure);
     default:

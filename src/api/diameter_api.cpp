@@ -12,15 +12,15 @@ namespace {
 using namespace welkin;
 
 // Fails where the medium is not of droplets as the tables have them.
-const std::shared_ptr<const DiameterNodes>& nodesOf(MediumState& medium) {
-  if (!variesInDiameter(medium.medium)) {
+const std::shared_ptr<const DiameterNodes>& nodesOf(const Medium& medium, LateNodes& late) {
+  if (!variesInDiameter(medium)) {
     fail(WLK_ERROR_INVALID_ARGUMENT, 0, "medium",
          "diameters need a medium of cloud, fog, haze or rain with the default spread");
   }
-  if (!medium.nodes) {
-    medium.nodes = std::make_shared<const DiameterNodes>(makeDiameterNodes(medium.medium));
+  if (!late.made) {
+    late.made = std::make_shared<const DiameterNodes>(makeDiameterNodes(medium));
   }
-  return medium.nodes;
+  return late.made;
 }
 
 void checkDiameters(const VolumeState& volume, const WlkVolumeUpload& u) {
@@ -77,7 +77,7 @@ WlkResult wlkUploadVolumeDiameters(WlkContext context, WlkVolume volume,
     checkNoChain(diameters);
     checkDiameters(state, u);
     const FieldState& field = state.fields[u.field];
-    const std::shared_ptr<const DiameterNodes> nodes = nodesOf(*c.media.find(field.mediumId));
+    const std::shared_ptr<const DiameterNodes> nodes = nodesOf(field.medium, *field.nodes);
     vk::Device& device = c.requireDevice("wlkUploadVolumeDiameters");
     PendingUpload pending = makePending(device, volume.id, DIAMETERS, state.size, sizeof(uint16_t));
     placeVoxels(*nodes, u, static_cast<uint16_t*>(pending.staging.data()));
@@ -135,7 +135,8 @@ WlkResult wlkEvalWaterExtinction(WlkContext context, WlkMedium medium, uint32_t 
                                  float* extinction) {
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
-    const DiameterNodes& nodes = *nodesOf(c.medium(medium));
+    const MediumState& state = c.medium(medium);
+    const DiameterNodes& nodes = *nodesOf(state.medium, *state.nodes);
     if (count > 0) {
       checkPointer(waterContent, "waterContent");
       checkPointer(extinction, "extinction");

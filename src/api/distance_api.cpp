@@ -2,7 +2,7 @@
 // The volumes' distance in an image of the engine's.
 #include <welkin/welkin_vulkan.h>
 
-#include "api/context.hpp"
+#include "api/engine_image.hpp"
 
 namespace welkin {
 
@@ -13,24 +13,10 @@ void importDistance(WlkContext_T& c, const ViewState& view, const WlkVulkanViewT
   }
   if (!view.volumeDistance) {
     fail(WLK_ERROR_WRONG_STATE, WLK_STRUCT_VULKAN_VIEW_TARGETS, "volumeDistance",
-         "the view does not tell the volumes' distance: call wlkVulkanSetVolumeDistance");
+         "the view does not tell the volumes' distance: call wlkSetVolumeDistance");
   }
-  const WlkVulkanImage i = copyStruct(t.volumeDistance, WLK_STRUCT_VULKAN_IMAGE);
-  checkNoChain(t.volumeDistance);
-  if (i.image == VK_NULL_HANDLE) {
-    fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, "volumeDistance",
-         "WlkVulkanImage::image of volumeDistance is null");
-  }
-  if (i.width != view.info.width || i.height != view.info.height) {
-    fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, "volumeDistance",
-         "volumeDistance has %u x %u pixels, the view %u x %u", i.width, i.height, view.info.width,
-         view.info.height);
-  }
-  if (i.after.layout == VK_IMAGE_LAYOUT_UNDEFINED ||
-      i.after.layout == VK_IMAGE_LAYOUT_PREINITIALIZED) {
-    fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, "volumeDistance",
-         "volumeDistance: after.layout must be a real layout");
-  }
+  const WlkVulkanImage i = checkedEngineImage(t.volumeDistance, "volumeDistance");
+  checkImageSize(i, "volumeDistance", "view", view.info.width, view.info.height);
   const bool half = i.format == VK_FORMAT_R16_SFLOAT || i.format == VK_FORMAT_R16G16_SFLOAT;
   const bool full = i.format == VK_FORMAT_R32_SFLOAT || i.format == VK_FORMAT_R32G32_SFLOAT;
   if (!(half || full) || !c.device->supports(i.format, VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT)) {
@@ -39,22 +25,19 @@ void importDistance(WlkContext_T& c, const ViewState& view, const WlkVulkanViewT
          "device can store to",
          static_cast<int>(i.format));
   }
-  images.volumeDistance.image = i.image;
-  images.volumeDistance.view = importView(c, i, VK_IMAGE_VIEW_TYPE_2D, VK_IMAGE_ASPECT_COLOR_BIT);
-  images.volumeDistance.before = i.before;
-  images.volumeDistance.after = i.after;
+  images.volumeDistance = importTarget(c, i, VK_IMAGE_VIEW_TYPE_2D);
   images.distanceHalf = half;
 }
 
 }  // namespace welkin
 
-WlkResult wlkVulkanSetVolumeDistance(WlkContext context, WlkView view, uint32_t enabled) {
+WlkResult wlkSetVolumeDistance(WlkContext context, WlkView view, uint32_t enabled) {
   using namespace welkin;
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
     if (c.mode != WLK_MODE_ENGINE_DEVICE) {
       fail(WLK_ERROR_WRONG_STATE, 0, "context",
-           "wlkVulkanSetVolumeDistance needs an engine-device context");
+           "wlkSetVolumeDistance needs an engine-device context");
     }
     ViewState& state = c.view(view);
     if (enabled > 1) {

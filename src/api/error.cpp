@@ -47,12 +47,13 @@ WlkResult wlkGetLastError(WlkErrorInfo* info) {
   // Must not overwrite what it reports: works on a copy.
   const Failure failure = lastFailure;
   return guarded([&] {
-    checkOutput(info, WLK_STRUCT_ERROR_INFO, sizeof *info);
-    info->result = failure.result;
-    info->structType = failure.structType;
-    info->vkResult = failure.vkResult;
-    std::memcpy(info->field, failure.field, sizeof info->field);
-    std::memcpy(info->message, failure.message, sizeof info->message);
+    WlkErrorInfo value = startOutput(info, WLK_STRUCT_ERROR_INFO);
+    value.result = failure.result;
+    value.structType = failure.structType;
+    value.vkResult = failure.vkResult;
+    std::memcpy(value.field, failure.field, sizeof value.field);
+    std::memcpy(value.message, failure.message, sizeof value.message);
+    finishOutput(value, info);
     return WLK_SUCCESS;
   });
 }

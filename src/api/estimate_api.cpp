@@ -14,7 +14,7 @@ WlkResult wlkGetErrorEstimate(WlkContext context, WlkView view, WlkErrorEstimate
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
     const ViewState& state = c.view(view);
-    checkOutput(estimate, WLK_STRUCT_ERROR_ESTIMATE, sizeof *estimate);
+    WlkErrorEstimate value = startOutput(estimate, WLK_STRUCT_ERROR_ESTIMATE);
     std::pmr::vector<PlanVolume> planned(&c.memory);
     std::pmr::vector<RecordVolume> states(&c.memory);
     for (uint32_t i = 0; i < c.volumes.slotCount(); ++i) {
@@ -34,12 +34,13 @@ WlkResult wlkGetErrorEstimate(WlkContext context, WlkView view, WlkErrorEstimate
 
     double sum = 0;
     for (size_t i = 0; i < parts.size(); ++i) {
-      estimate->part[i] = static_cast<float>(parts[i]);
+      value.part[i] = static_cast<float>(parts[i]);
       sum += parts[i] * parts[i];
     }
-    estimate->relativeError = static_cast<float>(std::min(std::sqrt(sum), 1.0));
-    estimate->dominant =
+    value.relativeError = static_cast<float>(std::min(std::sqrt(sum), 1.0));
+    value.dominant =
         static_cast<uint32_t>(std::max_element(parts.begin(), parts.end()) - parts.begin());
+    finishOutput(value, estimate);
     return WLK_SUCCESS;
   });
 }

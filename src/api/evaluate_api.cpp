@@ -51,7 +51,7 @@ WlkResult wlkEvalSky(WlkContext context, const WlkRayBatch* batch, double* radia
                      double* transmittance) {
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
-    const WlkRayBatch b = copyStruct(batch, WLK_STRUCT_RAY_BATCH, RAY_BATCH_FIRST_SIZE);
+    const WlkRayBatch b = copyStruct(batch, WLK_STRUCT_RAY_BATCH);
     checkNoChain(batch);
     checkRange(b.sType, "maxOrder", b.maxOrder, ALL_ORDERS, FIRST_ORDER);
     if (b.count > 0) {

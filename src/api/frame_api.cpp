@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Frames: prepare, begin, uploads, headless rendering and read-back.
+// Frames: begin, uploads, headless rendering and read-back.
 #include <cstring>
 #include <utility>
 
 #include "api/ambient_light.hpp"
 #include "api/context.hpp"
 #include "api/control.hpp"
+#include "api/engine_image.hpp"
 #include "api/leap_maps.hpp"
 #include "api/light_shadow_input.hpp"
 #include "api/light_stores.hpp"
@@ -35,12 +36,12 @@ void clearOnce(const vk::Dispatch& vk, VkCommandBuffer commands, vk::Image& imag
   if (image.layout != VK_IMAGE_LAYOUT_UNDEFINED) {
     return;
   }
-  imageBarrier(vk, commands, image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, NOTHING, TRANSFER_TARGET);
+  imageBarrier(vk, commands, image.handle(), WHOLE_IMAGE, NOTHING, TRANSFER_TARGET);
   const VkClearColorValue zero{};
   const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
   vk.CmdClearColorImage(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &zero, 1,
                         &range);
-  imageBarrier(vk, commands, image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, TRANSFER_TARGET, SAMPLED);
+  imageBarrier(vk, commands, image.handle(), WHOLE_IMAGE, TRANSFER_TARGET, SAMPLED);
   image.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 }
 
@@ -117,30 +118,40 @@ void readTarget(const vk::Dispatch& vk, VkCommandBuffer commands, const ViewStat
                           view.resources.readback.handle(), 1, &region);
 }
 
-void renderHeadless(WlkContext_T& c, ViewState& view, const WlkHeadlessTargets& targets) {
+void checkInputs(const ViewState& view, const WlkHeadlessInputs& inputs) {
+  const uint64_t pixels = uint64_t{view.info.width} * view.info.height;
+  if (inputs.color != nullptr) {
+    checkRoom(inputs.sType, "colorSize", inputs.colorSize, 16 * pixels);
+  }
+  if (inputs.depth != nullptr) {
+    checkRoom(inputs.sType, "depthSize", inputs.depthSize, 4 * pixels);
+  }
+}
+
+void renderHeadless(WlkContext_T& c, ViewState& view, const WlkHeadlessInputs& inputs) {
   const vk::Dispatch& vk = c.device->vk();
   ViewTargets images;
-  if (targets.lightShadow != nullptr) {
-    images.lightShadow = lightShadowOf(c, view, targets.lightShadow);
-    stageShadowDepth(c, view, targets, targets.lightShadow->cascadeCount);
+  if (inputs.lightShadow != nullptr) {
+    images.lightShadow = lightShadowOf(c, view, inputs.lightShadow);
+    stageShadowDepth(c, view, inputs, inputs.lightShadow->cascadeCount);
   }
   VkCommandBuffer commands = c.headless->begin();
   recordUpdate(c, commands);
   ViewResources& r = view.resources;
   const VkDeviceSize pixels = VkDeviceSize{view.info.width} * view.info.height;
-  if (targets.lightShadow != nullptr) {
+  if (inputs.lightShadow != nullptr) {
     VkBufferImageCopy region{};
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, r.shadowDepth.info().layers};
     region.imageExtent = r.shadowDepth.info().extent;
     copyInto(vk, commands, r.shadowUpload, r.shadowDepth, region, false);
     images.shadowMap = ownTarget(r.shadowDepth, SAMPLED, SAMPLED);
   }
-  if (targets.color != nullptr) {
-    uploadPixels(vk, commands, view, targets.color, 0, pixels * 16, r.color);
+  if (inputs.color != nullptr) {
+    uploadPixels(vk, commands, view, inputs.color, 0, pixels * 16, r.color);
     images.colorInput = ownTarget(r.color, SAMPLED, SAMPLED);
   }
-  if (targets.depth != nullptr) {
-    uploadPixels(vk, commands, view, targets.depth, pixels * 16, pixels * 4, r.depth);
+  if (inputs.depth != nullptr) {
+    uploadPixels(vk, commands, view, inputs.depth, pixels * 16, pixels * 4, r.depth);
     images.depth = ownTarget(r.depth, SAMPLED, SAMPLED);
   }
   images.target0 = ownTarget(r.target0, NOTHING, TRANSFER_SOURCE);
@@ -169,11 +180,20 @@ void renderHeadless(WlkContext_T& c, ViewState& view, const WlkHeadlessTargets& 
   c.collect();
 }
 
-// Whether the eye is so high that it may soon look down on the edge of night: a tenth of where
-// pixels gather their light themselves, some 12 km on Earth.
-bool nearSpace(const WlkContext_T& c, const ViewState& view) {
-  const glm::dvec3 eye(view.camera.position[0], view.camera.position[1], view.camera.position[2]);
-  return seenFromSpace(c.skyLight.latest(), 10 * planetFrameAt(c.air.planet, eye).altitude);
+// Once, until the map is of use.
+void tellShadow(const WlkContext_T& c, ViewState& view, const ViewTargets& targets) {
+  if (!targets.shadowMap) {
+    return;
+  }
+  const bool unused = !view.plan.lightShadows;
+  if (unused && !view.shadowUnused) {
+    c.emit(
+        WLK_LOG_WARNING, WLK_LOG_ID_SHADOW_MAP_UNUSED,
+        "the shadow map of light %u shades nothing: no air or fog is drawn that this light is the "
+        "one to light",
+        targets.lightShadow.light);
+  }
+  view.shadowUnused = unused;
 }
 
 }  // namespace
@@ -187,18 +207,17 @@ void copyInto(const vk::Dispatch& vk, VkCommandBuffer commands, const vk::Buffer
   if (image.layout == VK_IMAGE_LAYOUT_UNDEFINED) {
     before = NOTHING;
   }
-  imageBarrier(vk, commands, image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, before, TRANSFER_TARGET);
+  imageBarrier(vk, commands, image.handle(), WHOLE_IMAGE, before, TRANSFER_TARGET);
   if (clearFirst && image.layout == VK_IMAGE_LAYOUT_UNDEFINED) {
     const VkClearColorValue zero{};
     const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
     vk.CmdClearColorImage(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &zero, 1,
                           &range);
-    imageBarrier(vk, commands, image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, TRANSFER_TARGET,
-                 TRANSFER_TARGET);
+    imageBarrier(vk, commands, image.handle(), WHOLE_IMAGE, TRANSFER_TARGET, TRANSFER_TARGET);
   }
   vk.CmdCopyBufferToImage(commands, from.handle(), image.handle(),
                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
-  imageBarrier(vk, commands, image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, TRANSFER_TARGET, SAMPLED);
+  imageBarrier(vk, commands, image.handle(), WHOLE_IMAGE, TRANSFER_TARGET, SAMPLED);
   image.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 }
 
@@ -275,8 +294,7 @@ void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
     record.state = volume;
     for (uint32_t f = 0; f < volume->fieldCount; ++f) {
       if (volume->fields[f].external) {
-        record.externalViews[f] = importView(c, *volume->fields[f].external, VK_IMAGE_VIEW_TYPE_3D,
-                                             VK_IMAGE_ASPECT_COLOR_BIT);
+        record.externalViews[f] = importView(c, *volume->fields[f].external, VK_IMAGE_VIEW_TYPE_3D);
       }
     }
     record.store = findLightStore(*volume, input.quality);
@@ -287,6 +305,7 @@ void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
   makePlan(input, view.plan);
   controlPlan(c, view, input);
   planAmbient(c, view);
+  tellShadow(c, view, targets);
   const PlanetFrame eye = planetFrameAt(input.planet, input.eye);
   chooseSkyTable(c.skyLight.now, input.planet.radius, eye, view.plan);
 
@@ -305,89 +324,6 @@ void recordFrame(WlkContext_T& c, VkCommandBuffer commands, ViewState& view,
 }
 
 }  // namespace welkin
-
-// The tables of the forms that views ask for.
-static void prepareTables(WlkContext_T& c, VolumeState& volume) {
-  for (uint32_t i = 0; i < c.views.slotCount(); ++i) {
-    if (const ViewState* view = c.views.at(i)) {
-      const SliceQuality quality = resolveQuality(view->quality);
-      prepareVolume(*c.device, volume, quality.form());
-      if (quality.ambientCells > 0 && c.ambientActive()) {
-        prepareMedia(*c.device, volume);
-      }
-    }
-  }
-}
-
-WlkResult wlkPrepare(WlkContext context) {
-  return guarded([&] {
-    WlkContext_T& c = checkContext(context);
-    vk::Device& device = c.requireDevice("wlkPrepare");
-    prepareLeaps(c);
-    std::array<bool, FIELD_KINDS> used{};
-    for (uint32_t i = 0; i < c.volumes.slotCount(); ++i) {
-      if (VolumeState* volume = c.volumes.at(i)) {
-        prepareTables(c, *volume);
-        used[volume->fieldKind()] = true;
-      }
-    }
-    std::array<uint32_t, FIELD_KINDS> fieldKinds{};
-    size_t kinds = 0;
-    for (uint32_t kind = 0; kind < FIELD_KINDS; ++kind) {
-      if (used[kind]) {
-        fieldKinds[kinds++] = kind;
-      }
-    }
-    SceneFeatures features;
-    features.sky = c.air.sky.has_value();
-    features.absorber = features.sky && c.absorbs();
-    features.fog = c.fogActive();
-    features.lights = std::max(c.air.lightCount, 1U);
-    features.shapedDisk = c.shapedDisk();
-    features.ambient = c.ambientActive();
-    prepareSkyLight(c);
-    prepareLightStores(c);
-    prepareSurfaceLights(c);
-    features.surfaces = c.surfaces.count();
-    c.recordVolumes.reserve(c.volumes.count());
-    c.errorVolumes.reserve(c.volumes.count());
-    c.recordSurfaces.reserve(c.surfaces.count());
-    c.shadowCasters.reserve(c.volumes.count());
-    for (uint32_t i = 0; i < c.views.slotCount(); ++i) {
-      ViewState* view = c.views.at(i);
-      if (view != nullptr && nearSpace(c, *view) && !view->resources.space) {
-        view->prepared = false;
-      }
-      if (view == nullptr || view->prepared) {
-        continue;
-      }
-      c.retired.reserve(c.retired.size() + 1);
-      view->plan.volumes.reserve(c.volumes.count());
-      view->planVolumes.reserve(c.volumes.count());
-      view->plan.surfaces.reserve(c.surfaces.count());
-      view->planSurfaces.reserve(c.surfaces.count());
-      view->record.passes.reserve(passRoom(c.volumes.count(), c.surfaces.count()));
-      view->record.times.reserve(passRoom(c.volumes.count(), c.surfaces.count()));
-      // prepareView swaps new resources in; the old ones wait for their frames. From there on
-      // nothing may throw: nobody else owns what the carrier has.
-      ViewState carrier(&c.memory);
-      carrier.info = view->info;
-      carrier.quality = view->quality;
-      carrier.aerial = view->aerial;
-      carrier.volumeDistance = view->volumeDistance;
-      features.space = nearSpace(c, *view);
-      chooseStores(c, *view, features);
-      prepareView(device, *c.pipelines, carrier, c.volumes.count(), c.maxFramesInFlight, features,
-                  {fieldKinds.data(), kinds}, c.viewLights, &c.memory);
-      c.retireView(*view);
-      std::swap(view->resources, carrier.resources);
-      view->prepared = true;
-    }
-    prepareShadowMaps(c, {fieldKinds.data(), kinds});
-    c.collect();
-    return WLK_SUCCESS;
-  });
-}
 
 WlkResult wlkBeginFrame(WlkContext context, const WlkFrameInfo* frame) {
   return guarded([&] {
@@ -429,14 +365,14 @@ WlkResult wlkBeginFrame(WlkContext context, const WlkFrameInfo* frame) {
   });
 }
 
-WlkResult wlkRenderHeadless(WlkContext context, WlkView view, const WlkHeadlessTargets* targets) {
+WlkResult wlkRenderHeadless(WlkContext context, WlkView view, const WlkHeadlessInputs* inputs) {
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
     ViewState& state = c.view(view);
-    WlkHeadlessTargets value{};
-    if (targets != nullptr) {
-      value = copyStruct(targets, WLK_STRUCT_HEADLESS_TARGETS, HEADLESS_TARGETS_FIRST_SIZE);
-      checkNoChain(targets);
+    WlkHeadlessInputs value{};
+    if (inputs != nullptr) {
+      value = copyStruct(inputs, WLK_STRUCT_HEADLESS_INPUTS);
+      checkNoChain(inputs);
     }
     c.requireDevice("wlkRenderHeadless");
     if (!c.headless) {
@@ -445,6 +381,7 @@ WlkResult wlkRenderHeadless(WlkContext context, WlkView view, const WlkHeadlessT
     if (!state.prepared) {
       fail(WLK_ERROR_NOT_PREPARED, 0, "view", "call wlkPrepare before rendering");
     }
+    checkInputs(state, value);
     ++c.frameIndex;
     renderHeadless(c, state, value);
     return WLK_SUCCESS;

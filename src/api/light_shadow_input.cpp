@@ -11,9 +11,9 @@ LightShadow lightShadowOf(const WlkContext_T& c, const ViewState& view,
                           const WlkLightShadow* shadow) {
   const WlkLightShadow s = copyStruct(shadow, WLK_STRUCT_LIGHT_SHADOW);
   checkNoChain(shadow);
-  if ((view.quality.flags & WLK_QUALITY_LIGHT_SHADOWS) == 0) {
+  if ((view.quality.flags & WLK_QUALITY_FLAG_LIGHT_SHADOWS) == 0) {
     fail(WLK_ERROR_WRONG_STATE, s.sType, "lightShadow",
-         "a shadow map needs WLK_QUALITY_LIGHT_SHADOWS in WlkQuality::flags of the view");
+         "a shadow map needs WLK_QUALITY_FLAG_LIGHT_SHADOWS in WlkQuality::flags of the view");
   }
   checkRange(s.sType, "cascadeCount", s.cascadeCount, 1, WLK_MAX_SHADOW_CASCADES);
   checkRange(s.sType, "light", s.light, 0, MAX_LIGHTS - 1);
@@ -31,13 +31,14 @@ LightShadow lightShadowOf(const WlkContext_T& c, const ViewState& view,
                             glm::normalize(glm::dvec3(direction[0], direction[1], direction[2])));
 }
 
-void stageShadowDepth(WlkContext_T& c, ViewState& view, const WlkHeadlessTargets& targets,
+void stageShadowDepth(WlkContext_T& c, ViewState& view, const WlkHeadlessInputs& targets,
                       uint32_t cascades) {
-  const uint32_t type = WLK_STRUCT_HEADLESS_TARGETS;
+  const uint32_t type = WLK_STRUCT_HEADLESS_INPUTS;
   checkPointer(targets.shadowDepth, "shadowDepth");
   checkRange(type, "shadowWidth", targets.shadowWidth, 1, 8192);
   checkRange(type, "shadowHeight", targets.shadowHeight, 1, 8192);
   const size_t values = size_t{targets.shadowWidth} * targets.shadowHeight * cascades;
+  checkRoom(type, "shadowDepthSize", targets.shadowDepthSize, values * sizeof(float));
   for (size_t i = 0; i < values; ++i) {
     if (!std::isfinite(targets.shadowDepth[i])) {
       fail(WLK_ERROR_INVALID_ARGUMENT, type, "shadowDepth", "shadowDepth[%zu] is not finite", i);

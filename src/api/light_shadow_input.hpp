@@ -12,7 +12,7 @@ LightShadow lightShadowOf(const WlkContext_T& context, const ViewState& view,
 
 // Depth values as `shadow` describes them, on their way to the GPU: makes image and buffer of their
 // size in the view, headless. Throws INVALID_ARGUMENT, OUT_OF_*; then the view is as before.
-void stageShadowDepth(WlkContext_T& context, ViewState& view, const WlkHeadlessTargets& targets,
+void stageShadowDepth(WlkContext_T& context, ViewState& view, const WlkHeadlessInputs& targets,
                       uint32_t cascades);
 
 }  // namespace welkin

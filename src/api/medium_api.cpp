@@ -169,9 +169,11 @@ WlkResult wlkCreateMedium(WlkContext context, const WlkMediumInfo* info, WlkMedi
     checkPointer(medium, "medium");
     const Medium value = checkedMedium(info);
     auto tables = std::make_shared<MediumTables>();
+    auto nodes = std::make_shared<LateNodes>();
     const uint64_t id = c.media.create();
     c.media.find(id)->medium = value;
     c.media.find(id)->tables = std::move(tables);
+    c.media.find(id)->nodes = std::move(nodes);
     medium->id = id;
     return WLK_SUCCESS;
   });
@@ -180,10 +182,7 @@ WlkResult wlkCreateMedium(WlkContext context, const WlkMediumInfo* info, WlkMedi
 WlkResult wlkDestroyMedium(WlkContext context, WlkMedium medium) {
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
-    if (c.medium(medium).users > 0) {
-      fail(WLK_ERROR_WRONG_STATE, 0, "medium", "%u volume fields use this medium",
-           c.medium(medium).users);
-    }
+    c.medium(medium);
     c.media.destroy(medium.id);
     return WLK_SUCCESS;
   });
@@ -193,18 +192,19 @@ WlkResult wlkGetMediumOptics(WlkContext context, WlkMedium medium, WlkMediumOpti
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
     const Particle& particle = *c.medium(medium).medium.particle;
-    checkOutput(optics, WLK_STRUCT_MEDIUM_OPTICS, sizeof *optics);
+    WlkMediumOptics value = startOutput(optics, WLK_STRUCT_MEDIUM_OPTICS);
     const ParticleOptics& o = particle.optics;
     constexpr double M2_PER_UM2 = 1e-12;
     for (size_t i = 0; i < RGB; ++i) {
-      optics->extinctionEfficiency[i] = static_cast<float>(o.efficiency[i]);
-      optics->extinctionCrossSection[i] = o.efficiency[i] * o.area_um2 * M2_PER_UM2;
-      optics->asymmetry[i] = static_cast<float>(particle.analytic ? meanCosine(particle.phase)
-                                                                  : meanCosine(particle.curve, i));
-      optics->forwardFraction[i] = static_cast<float>(forwardFraction(particle.curve, i));
-      optics->deltaFraction[i] = static_cast<float>(o.delta[i]);
+      value.extinctionEfficiency[i] = static_cast<float>(o.efficiency[i]);
+      value.extinctionCrossSection[i] = o.efficiency[i] * o.area_um2 * M2_PER_UM2;
+      value.asymmetry[i] = static_cast<float>(particle.analytic ? meanCosine(particle.phase)
+                                                                : meanCosine(particle.curve, i));
+      value.forwardFraction[i] = static_cast<float>(forwardFraction(particle.curve, i));
+      value.deltaFraction[i] = static_cast<float>(o.delta[i]);
     }
-    optics->effectiveRadius_um = static_cast<float>(o.effectiveRadius_um);
+    value.effectiveRadius_um = static_cast<float>(o.effectiveRadius_um);
+    finishOutput(value, optics);
     return WLK_SUCCESS;
   });
 }

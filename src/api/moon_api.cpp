@@ -77,19 +77,20 @@ WlkResult wlkInitMoon(const float toSun[3], const float toMoon[3], const float s
     const Vec3 sun = checkedUnit(toSun, "toSun");
     const Vec3 to = checkedUnit(toMoon, "toMoon");
     checkIrradiance(sunIrradiance);
-    checkOutput(moon, WLK_STRUCT_LIGHT, sizeof *moon);
+    WlkLight value = startOutput(moon, WLK_STRUCT_LIGHT);
     const double ratio = moonOverSun(phaseAngle(sun, to));
     const double direction[3] = {to.x, to.y, to.z};
     const double litFrom[3] = {sun.x, sun.y, sun.z};
     for (int i = 0; i < 3; ++i) {
-      moon->direction[i] = static_cast<float>(direction[i]);
-      moon->irradiance[i] =
+      value.direction[i] = static_cast<float>(direction[i]);
+      value.irradiance[i] =
           static_cast<float>(static_cast<double>(sunIrradiance[i]) * ratio * RED[i]);
-      moon->limbDarkening[i] = 0;
-      moon->litFrom[i] = static_cast<float>(litFrom[i]);
+      value.limbDarkening[i] = 0;
+      value.litFrom[i] = static_cast<float>(litFrom[i]);
     }
-    moon->angularDiameter = DIAMETER;
-    moon->reserved0 = 0;
+    value.angularDiameter = DIAMETER;
+    value.reserved0 = 0;
+    finishOutput(value, moon);
     return WLK_SUCCESS;
   });
 }

@@ -92,7 +92,7 @@ Preset mars() {
     p.sun.irradiance[c] = static_cast<float>(1 / (DISTANCE * DISTANCE));
   }
   p.sky.scaleHeight = static_cast<float>(SCALE_HEIGHT);
-  assign(p.absorber.extinction, {0, 0, 0});
+  assign(p.absorber.absorption, {0, 0, 0});
   p.hazeMedium.particle = WLK_PARTICLE_HENYEY_GREENSTEIN;
   p.hazeMedium.asymmetry = 0.69f;
   const float albedo[3] = {0.97f, 0.92f, 0.77f};

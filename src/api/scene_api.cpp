@@ -63,16 +63,15 @@ WlkResult wlkCreateVolume(WlkContext context, const WlkVolumeInfo* info, WlkVolu
     checkVolumeSize(device, v);
     checkVolumeMemory(device, v);
     checkTransform(v.sType, "worldFromVolume", v.worldFromVolume);
-    if (v.fieldStride < sizeof(WlkVolumeField)) {
+    if (v.fieldStride < FIRST_SIZE<WlkVolumeField>) {
       fail(WLK_ERROR_INVALID_ARGUMENT, v.sType, "fieldStride",
-           "WlkVolumeInfo::fieldStride is %u, expected at least %zu", v.fieldStride,
-           sizeof(WlkVolumeField));
+           "WlkVolumeInfo::fieldStride is %u, expected at least %u", v.fieldStride,
+           FIRST_SIZE<WlkVolumeField>);
     }
     checkPointer(v.fields, "fields");
     std::array<WlkVolumeField, WLK_MAX_FIELDS> fields{};
     for (uint32_t i = 0; i < v.fieldCount; ++i) {
-      std::memcpy(&fields[i], reinterpret_cast<const char*>(v.fields) + size_t{i} * v.fieldStride,
-                  sizeof fields[i]);
+      fields[i] = copyElement(v.fields, v.fieldStride, i, v.sType);
       c.medium(fields[i].medium);
       checkRange(v.sType, "extinctionScale", fields[i].extinctionScale, 0, 1e6);
     }
@@ -82,11 +81,10 @@ WlkResult wlkCreateVolume(WlkContext context, const WlkVolumeInfo* info, WlkVolu
     state.fieldCount = v.fieldCount;
     state.worldFromBox = transformOf(v.worldFromVolume);
     for (uint32_t i = 0; i < v.fieldCount; ++i) {
-      MediumState& used = c.medium(fields[i].medium);
-      ++used.users;
-      state.fields[i].mediumId = fields[i].medium.id;
+      const MediumState& used = c.medium(fields[i].medium);
       state.fields[i].medium = used.medium;
       state.fields[i].tables = used.tables;
+      state.fields[i].nodes = used.nodes;
       state.fields[i].extinctionScale = fields[i].extinctionScale;
       const std::array<double, RGB> albedo = used.medium.scaledAlbedo();
       const double scattered = (albedo[0] + albedo[1] + albedo[2]) / RGB;
@@ -110,7 +108,6 @@ WlkResult wlkDestroyVolume(WlkContext context, WlkVolume volume) {
     entry.frame = c.frameIndex;
     for (uint32_t i = 0; i < state.fieldCount; ++i) {
       entry.images[i] = std::move(state.fields[i].image);
-      --c.media.find(state.fields[i].mediumId)->users;
     }
     for (uint32_t form = 0; form < SCATTERING_FORMS; ++form) {
       entry.images[WLK_MAX_FIELDS + form] = std::move(state.tables[form].image);

@@ -5,17 +5,18 @@
 #include <cstring>
 
 #include "api/context.hpp"
+#include "api/engine_image.hpp"
 
 namespace {
 
 using namespace welkin;
 
-WlkShadowMapInfo checkedInfo(const WlkShadowMapInfo* info) {
-  const WlkShadowMapInfo i = copyStruct(info, WLK_STRUCT_SHADOW_MAP_INFO);
+WlkCloudShadowInfo checkedInfo(const WlkCloudShadowInfo* info) {
+  const WlkCloudShadowInfo i = copyStruct(info, WLK_STRUCT_CLOUD_SHADOW_INFO);
   checkNoChain(info);
   checkRange(i.sType, "width", i.width, 1, 8192);
   checkRange(i.sType, "height", i.height, 1, 8192);
-  checkRange(i.sType, "content", i.content, WLK_SHADOW_OPTICAL_DEPTH, WLK_SHADOW_LAYER);
+  checkRange(i.sType, "content", i.content, WLK_CLOUD_SHADOW_OPTICAL_DEPTH, WLK_CLOUD_SHADOW_LAYER);
   checkRange(i.sType, "light", i.light, 0, MAX_LIGHTS - 1);
   for (const double x : i.center) {
     checkRange(i.sType, "center", x, -1e9, 1e9);
@@ -27,10 +28,10 @@ WlkShadowMapInfo checkedInfo(const WlkShadowMapInfo* info) {
   return i;
 }
 
-ShadowMapState& mapOf(const WlkContext_T& c, WlkShadowMap handle) {
+ShadowMapState& mapOf(const WlkContext_T& c, WlkCloudShadow handle) {
   ShadowMapState* found = c.shadowMaps.find(handle.id);
   if (found == nullptr) {
-    fail(WLK_ERROR_INVALID_HANDLE, 0, "map", "no such shadow map");
+    fail(WLK_ERROR_INVALID_HANDLE, 0, "map", "no such cloud shadow");
   }
   return *found;
 }
@@ -40,28 +41,16 @@ bool isHalf(VkFormat format) {
 }
 
 WlkVulkanImage checkedImage(const WlkContext_T& c, const WlkVulkanImage* image,
-                            const WlkShadowMapInfo& info) {
-  const WlkVulkanImage i = copyStruct(image, WLK_STRUCT_VULKAN_IMAGE);
-  checkNoChain(image);
-  if (i.image == VK_NULL_HANDLE) {
-    fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, "image", "WlkVulkanImage::image is null");
-  }
-  if (i.width != info.width || i.height != info.height) {
-    fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, "image",
-         "the image has %u x %u texels, the shadow map %u x %u", i.width, i.height, info.width,
-         info.height);
-  }
-  if (i.after.layout == VK_IMAGE_LAYOUT_UNDEFINED ||
-      i.after.layout == VK_IMAGE_LAYOUT_PREINITIALIZED) {
-    fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, "after", "after.layout must be a real layout");
-  }
-  const bool depth = info.content == WLK_SHADOW_OPTICAL_DEPTH;
+                            const WlkCloudShadowInfo& info) {
+  const WlkVulkanImage i = checkedEngineImage(image, "image");
+  checkImageSize(i, "image", "cloud shadow", info.width, info.height);
+  const bool depth = info.content == WLK_CLOUD_SHADOW_OPTICAL_DEPTH;
   const bool fits = depth ? i.format == VK_FORMAT_R16_SFLOAT || i.format == VK_FORMAT_R32_SFLOAT
                           : i.format == VK_FORMAT_R16G16B16A16_SFLOAT ||
                                 i.format == VK_FORMAT_R32G32B32A32_SFLOAT;
   if (!fits) {
     fail(WLK_ERROR_UNSUPPORTED_FORMAT, i.sType, "format",
-         "shadow maps of content %u have %s or %s_SFLOAT, not VkFormat %d", info.content,
+         "cloud shadows of content %u have %s or %s_SFLOAT, not VkFormat %d", info.content,
          depth ? "R16" : "R16G16B16A16", depth ? "R32" : "R32G32B32A32",
          static_cast<int>(i.format));
   }
@@ -94,8 +83,7 @@ void gatherCasters(WlkContext_T& c) {
     caster.state = volume;
     for (uint32_t f = 0; f < volume->fieldCount; ++f) {
       if (volume->fields[f].external) {
-        caster.externalViews[f] = importView(c, *volume->fields[f].external, VK_IMAGE_VIEW_TYPE_3D,
-                                             VK_IMAGE_ASPECT_COLOR_BIT);
+        caster.externalViews[f] = importView(c, *volume->fields[f].external, VK_IMAGE_VIEW_TYPE_3D);
       }
     }
     c.shadowCasters.push_back(caster);  // reserved
@@ -141,13 +129,13 @@ void prepareShadowMaps(WlkContext_T& c, std::span<const uint32_t> fieldKinds) {
 
 }  // namespace welkin
 
-WlkResult wlkVulkanCreateShadowMap(WlkContext context, const WlkShadowMapInfo* info,
-                                   WlkShadowMap* map) {
+WlkResult wlkCreateCloudShadow(WlkContext context, const WlkCloudShadowInfo* info,
+                               WlkCloudShadow* map) {
   return guarded([&] {
-    WlkContext_T& c = engineContext(context, "wlkVulkanCreateShadowMap");
+    WlkContext_T& c = engineContext(context, "wlkCreateCloudShadow");
     checkPointer(map, "map");
-    const WlkShadowMapInfo value = checkedInfo(info);
-    c.requireDevice("wlkVulkanCreateShadowMap");
+    const WlkCloudShadowInfo value = checkedInfo(info);
+    c.requireDevice("wlkCreateCloudShadow");
     const uint64_t id = c.shadowMaps.create(&c.memory);
     c.shadowMaps.find(id)->info = value;
     map->id = id;
@@ -155,13 +143,13 @@ WlkResult wlkVulkanCreateShadowMap(WlkContext context, const WlkShadowMapInfo* i
   });
 }
 
-WlkResult wlkVulkanSetShadowMap(WlkContext context, WlkShadowMap map,
-                                const WlkShadowMapInfo* info) {
+WlkResult wlkSetCloudShadow(WlkContext context, WlkCloudShadow map,
+                            const WlkCloudShadowInfo* info) {
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
     ShadowMapState& state = mapOf(c, map);
-    const WlkShadowMapInfo value = checkedInfo(info);
-    const WlkShadowMapInfo& old = state.info;
+    const WlkCloudShadowInfo value = checkedInfo(info);
+    const WlkCloudShadowInfo& old = state.info;
     if (value.width != old.width || value.height != old.height || value.content != old.content) {
       state.prepared = false;
     }
@@ -170,7 +158,7 @@ WlkResult wlkVulkanSetShadowMap(WlkContext context, WlkShadowMap map,
   });
 }
 
-WlkResult wlkVulkanDestroyShadowMap(WlkContext context, WlkShadowMap map) {
+WlkResult wlkDestroyCloudShadow(WlkContext context, WlkCloudShadow map) {
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
     retireShadowMap(c, mapOf(c, map));
@@ -180,28 +168,24 @@ WlkResult wlkVulkanDestroyShadowMap(WlkContext context, WlkShadowMap map) {
   });
 }
 
-WlkResult wlkVulkanCmdRenderShadowMap(WlkContext context, VkCommandBuffer commandBuffer,
-                                      WlkShadowMap map, const WlkVulkanImage* image) {
+WlkResult wlkVulkanCmdRenderCloudShadow(WlkContext context, VkCommandBuffer commandBuffer,
+                                        WlkCloudShadow map, const WlkVulkanImage* image) {
   return guarded([&] {
-    WlkContext_T& c = requireFrame(context, commandBuffer, "wlkVulkanCmdRenderShadowMap");
+    WlkContext_T& c = requireFrame(context, commandBuffer, "wlkVulkanCmdRenderCloudShadow");
     ShadowMapState& state = mapOf(c, map);
     const WlkVulkanImage value = checkedImage(c, image, state.info);
     if (!state.prepared) {
       fail(WLK_ERROR_NOT_PREPARED, 0, "map", "call wlkPrepare before recording");
     }
     if (state.lastFrame == c.frameIndex) {
-      fail(WLK_ERROR_WRONG_STATE, 0, "map", "the shadow map was recorded in this frame already");
+      fail(WLK_ERROR_WRONG_STATE, 0, "map", "the cloud shadow was recorded in this frame already");
     }
     if (!everythingUploaded(c)) {
-      fail(WLK_ERROR_WRONG_STATE, 0, "context", "record wlkVulkanCmdUpdate before shadow maps");
+      fail(WLK_ERROR_WRONG_STATE, 0, "context", "record wlkVulkanCmdUpdate before cloud shadows");
     }
     harvestShadowMap(*c.device, state, c.completedFrame);
     gatherCasters(c);
-    TargetImage target;
-    target.image = value.image;
-    target.view = importView(c, value, VK_IMAGE_VIEW_TYPE_2D, VK_IMAGE_ASPECT_COLOR_BIT);
-    target.before = value.before;
-    target.after = value.after;
+    const TargetImage target = importTarget(c, value, VK_IMAGE_VIEW_TYPE_2D);
     ShadowMapInput input;
     input.light = lightOf(c, state.info.light);
     input.up =
@@ -216,23 +200,24 @@ WlkResult wlkVulkanCmdRenderShadowMap(WlkContext context, VkCommandBuffer comman
   });
 }
 
-WlkResult wlkVulkanGetShadowMap(WlkContext context, WlkShadowMap map, WlkShadowMapState* state) {
+WlkResult wlkGetCloudShadowState(WlkContext context, WlkCloudShadow map,
+                                 WlkCloudShadowState* state) {
   return guarded([&]() -> WlkResult {
     WlkContext_T& c = checkContext(context);
     ShadowMapState& from = mapOf(c, map);
-    checkOutput(state, WLK_STRUCT_SHADOW_MAP_STATE, sizeof *state);
+    const WlkCloudShadowState head = startOutput(state, WLK_STRUCT_CLOUD_SHADOW_STATE);
     if (from.lastFrame == 0) {
       return WLK_NOT_READY;
     }
     if (!c.deviceLost) {
       harvestShadowMap(*c.device, from, c.completedFrame);
     }
-    WlkShadowMapState value = from.last;
-    value.sType = state->sType;
-    value.structSize = state->structSize;
+    WlkCloudShadowState value = from.last;
+    value.sType = head.sType;
+    value.structSize = head.structSize;
     value.next = nullptr;
     value.gpuTime_ns = from.gpuTime_ns;
-    std::memcpy(state, &value, sizeof value);
+    finishOutput(value, state);
     return WLK_SUCCESS;
   });
 }

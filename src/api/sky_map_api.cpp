@@ -12,7 +12,8 @@
 
 using namespace welkin;
 
-WlkResult wlkEvalSkyMap(WlkContext context, const WlkSkyMapQuery* query, float* rgb) {
+WlkResult wlkEvalSkyMap(WlkContext context, const WlkSkyMapQuery* query, float* rgb,
+                        uint64_t rgbSize) {
   return guarded([&] {
     WlkContext_T& c = checkContext(context);
     const WlkSkyMapQuery q = copyStruct(query, WLK_STRUCT_SKY_MAP_QUERY);
@@ -23,6 +24,7 @@ WlkResult wlkEvalSkyMap(WlkContext context, const WlkSkyMapQuery* query, float* 
     checkRange(q.sType, "size", q.size, 4, 1024);
     checkRange(q.sType, "maxOrder", q.maxOrder, ALL_ORDERS, FIRST_ORDER);
     checkPointer(rgb, "rgb");
+    checkRoom(0, "rgbSize", rgbSize, uint64_t{12} * q.size * q.size);
     std::array<std::optional<SkyMap>, MAX_LIGHTS> maps;
     for (uint32_t l = 0; l < std::max(c.air.lightCount, 1U); ++l) {
       maps[l].emplace(c.air, planetFrameAt(c.air.planet, checkedPoint(q.position, "position")), l,

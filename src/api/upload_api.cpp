@@ -86,6 +86,14 @@ void dropPages(WlkContext_T& c, uint64_t volume, VolumeState& state, Retired& ro
   }
 }
 
+void tellReplaced(const WlkContext_T& c, const VoxelSums& sums, uint32_t field) {
+  if (sums.replaced > 0) {
+    c.emit(WLK_LOG_WARNING, WLK_LOG_ID_VALUES_REPLACED,
+           "field %u: %llu voxels were negative, not finite or over 65504", field,
+           static_cast<unsigned long long>(sums.replaced));
+  }
+}
+
 void takeSums(const VolumeState& state, const VoxelSums& sums, double part, FieldState& field) {
   const bool whole = part == 1;
   if (whole) {
@@ -157,6 +165,7 @@ WlkResult wlkUploadVolume(WlkContext context, WlkVolume volume, const WlkVolumeU
     state.faces[u.field].swap(faces);
     ++state.uploads;
     const double all = double(state.size[0]) * state.size[1] * state.size[2];
+    tellReplaced(c, sums, u.field);
     takeSums(state, sums, double(u.extent[0]) * u.extent[1] * u.extent[2] / all, field);
     return WLK_SUCCESS;
   });
@@ -215,6 +224,7 @@ WlkResult wlkUploadVolumeBricks(WlkContext context, WlkVolume volume,
     field.slots = contents.reached.size();
     state.faces[b.field].swap(contents.faces);
     ++state.uploads;
+    tellReplaced(c, contents.sums, b.field);
     takeSums(state, contents.sums, 1, field);
     return WLK_SUCCESS;
   });
@@ -224,28 +234,29 @@ WlkResult wlkGetVolumeState(WlkContext context, WlkVolume volume, WlkVolumeState
   return guarded([&] {
     const WlkContext_T& c = checkContext(context);
     const VolumeState& v = checkContext(context).volume(volume);
-    checkOutput(state, WLK_STRUCT_VOLUME_STATE, sizeof *state);
+    WlkVolumeState value = startOutput(state, WLK_STRUCT_VOLUME_STATE);
     const BrickGrid grid = brickGrid(v.size);
-    std::copy(grid.count.begin(), grid.count.end(), state->bricks);
-    state->occupiedBricks = 0;
+    std::copy(grid.count.begin(), grid.count.end(), value.bricks);
+    value.occupiedBricks = 0;
     for (size_t i = 0; i < grid.total(); ++i) {
-      state->occupiedBricks +=
+      value.occupiedBricks +=
           std::any_of(v.faces.begin(), v.faces.end(),
                       [&](const BrickFaces& faces) { return !faces.empty() && faces[i] != 0; });
     }
-    state->storedBricks = 0;
-    state->leaps = (v.fieldKind() & VolumeState::LEAPING) != 0 ? 1 : 0;
-    state->deviceMemory = imageBytes(v.pages) + imageBytes(v.leaps) + imageBytes(v.diameters);
-    state->hostMemory = v.pageTexels.capacity() * sizeof(float) + v.distances.capacity();
+    value.storedBricks = 0;
+    value.leaps = (v.fieldKind() & VolumeState::LEAPING) != 0 ? 1 : 0;
+    value.deviceMemory = imageBytes(v.pages) + imageBytes(v.leaps) + imageBytes(v.diameters);
+    value.hostMemory = v.pageTexels.capacity() * sizeof(float) + v.distances.capacity();
     for (uint32_t i = 0; i < v.fieldCount; ++i) {
-      state->storedBricks += v.fields[i].slots;
-      state->deviceMemory += imageBytes(v.fields[i].image);
-      state->hostMemory += v.faces[i].capacity();
+      value.storedBricks += v.fields[i].slots;
+      value.deviceMemory += imageBytes(v.fields[i].image);
+      value.hostMemory += v.faces[i].capacity();
     }
-    state->pendingMemory = 0;
+    value.pendingMemory = 0;
     for (const PendingUpload& pending : c.pending) {
-      state->pendingMemory += pending.volumeId == volume.id ? pending.staging.size() : 0;
+      value.pendingMemory += pending.volumeId == volume.id ? pending.staging.size() : 0;
     }
+    finishOutput(value, state);
     return WLK_SUCCESS;
   });
 }

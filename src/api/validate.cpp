@@ -5,6 +5,14 @@
 #include <glm/glm.hpp>
 
 namespace welkin {
+namespace {
+
+[[noreturn]] void failSize(uint32_t sType, uint32_t size, uint32_t least) {
+  fail(WLK_ERROR_INVALID_ARGUMENT, sType, "structSize",
+       "%s::structSize is %u, expected at least %u", structName(sType), size, least);
+}
+
+}  // namespace
 
 const char* structName(uint32_t sType) {
   switch (sType) {
@@ -16,6 +24,8 @@ const char* structName(uint32_t sType) {
       return "WlkHeadlessInfo";
     case WLK_STRUCT_CAPABILITIES:
       return "WlkCapabilities";
+    case WLK_STRUCT_LOG_MESSAGE:
+      return "WlkLogMessage";
     case WLK_STRUCT_PLANET:
       return "WlkPlanet";
     case WLK_STRUCT_SKY:
@@ -56,8 +66,8 @@ const char* structName(uint32_t sType) {
       return "WlkQualityState";
     case WLK_STRUCT_FRAME_INFO:
       return "WlkFrameInfo";
-    case WLK_STRUCT_HEADLESS_TARGETS:
-      return "WlkHeadlessTargets";
+    case WLK_STRUCT_HEADLESS_INPUTS:
+      return "WlkHeadlessInputs";
     case WLK_STRUCT_IMAGE_DATA:
       return "WlkImageData";
     case WLK_STRUCT_FRAME_STATS:
@@ -78,10 +88,10 @@ const char* structName(uint32_t sType) {
       return "WlkVulkanImage";
     case WLK_STRUCT_VULKAN_VIEW_TARGETS:
       return "WlkVulkanViewTargets";
-    case WLK_STRUCT_SHADOW_MAP_INFO:
-      return "WlkShadowMapInfo";
-    case WLK_STRUCT_SHADOW_MAP_STATE:
-      return "WlkShadowMapState";
+    case WLK_STRUCT_CLOUD_SHADOW_INFO:
+      return "WlkCloudShadowInfo";
+    case WLK_STRUCT_CLOUD_SHADOW_STATE:
+      return "WlkCloudShadowState";
     case WLK_STRUCT_AERIAL_PERSPECTIVE:
       return "WlkAerialPerspective";
     default:
@@ -103,11 +113,8 @@ void checkHeader(const void* structure, uint32_t sType, uint32_t size, uint32_t 
     fail(WLK_ERROR_UNKNOWN_STRUCT, sType, "sType", "%s::sType is %u, expected %u",
          structName(sType), header.sType, sType);
   }
-  // A structure has the size of the header that introduced it, ours, or a longer one.
-  const bool ofFirst = firstSize > 0 && header.structSize == firstSize;
-  if (header.structSize < size && !ofFirst) {
-    fail(WLK_ERROR_INVALID_ARGUMENT, sType, "structSize",
-         "%s::structSize is %u, expected at least %u", structName(sType), header.structSize, size);
+  if (header.structSize < firstSize) {
+    failSize(sType, header.structSize, firstSize);
   }
   constexpr uint32_t largest = 1u << 16;
   if (header.structSize > largest) {
@@ -123,7 +130,7 @@ void checkHeader(const void* structure, uint32_t sType, uint32_t size, uint32_t 
   }
 }
 
-void checkOutput(const void* structure, uint32_t sType, uint32_t size) {
+void checkOutput(const void* structure, uint32_t sType, uint32_t firstSize) {
   checkPointer(structure, structName(sType));
   StructHeader header;
   std::memcpy(&header, structure, sizeof header.sType + sizeof header.structSize);
@@ -131,11 +138,17 @@ void checkOutput(const void* structure, uint32_t sType, uint32_t size) {
     fail(WLK_ERROR_UNKNOWN_STRUCT, sType, "sType", "%s::sType is %u, expected %u",
          structName(sType), header.sType, sType);
   }
-  if (header.structSize < size) {
-    fail(WLK_ERROR_INVALID_ARGUMENT, sType, "structSize",
-         "%s::structSize is %u, expected at least %u", structName(sType), header.structSize, size);
+  if (header.structSize < firstSize) {
+    failSize(sType, header.structSize, firstSize);
   }
   checkNoChain(structure);
+}
+
+void checkReservedField(uint32_t sType, const char* field, uint32_t value) {
+  if (value != 0) {
+    fail(WLK_ERROR_INVALID_ARGUMENT, sType, field, "%s::%s is %u, reserved fields are 0",
+         structName(sType), field, value);
+  }
 }
 
 void checkNoChain(const void* structure) {
@@ -146,6 +159,13 @@ void checkNoChain(const void* structure) {
     std::memcpy(&chained, header.next, sizeof chained);
     fail(WLK_ERROR_UNKNOWN_STRUCT, header.sType, "next", "%s takes no chained structure (sType %u)",
          structName(header.sType), chained);
+  }
+}
+
+void checkRoom(uint32_t sType, const char* field, uint64_t size, uint64_t least) {
+  if (size < least) {
+    fail(WLK_ERROR_INVALID_ARGUMENT, sType, field, "%s is %llu bytes, expected at least %llu",
+         field, static_cast<unsigned long long>(size), static_cast<unsigned long long>(least));
   }
 }
 

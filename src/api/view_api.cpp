@@ -8,8 +8,22 @@ namespace {
 
 using namespace welkin;
 
+// WLK_LAYER_ALL less some layers is told by its highest bit, which is no layer: what this library
+// does not know of it is not asked for.
+uint64_t knownLayers(uint64_t layers) {
+  constexpr uint64_t KNOWN = WLK_LAYER_SKY | WLK_LAYER_FOG | WLK_LAYER_VOLUMES |
+                             WLK_LAYER_SUN_DISK | WLK_LAYER_GROUND | WLK_LAYER_SURFACES;
+  constexpr uint64_t OF_ALL = 1u << 30;
+  const uint64_t allowed = (layers & OF_ALL) != 0 ? uint64_t{WLK_LAYER_ALL} : KNOWN;
+  if ((layers & ~allowed) != 0) {
+    fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_VIEW_INFO, "layers",
+         "WlkViewInfo::layers has unknown bits");
+  }
+  return layers & KNOWN;
+}
+
 WlkViewInfo checkedView(const WlkContext_T& c, const WlkViewInfo* info) {
-  WlkViewInfo v = copyStruct(info, WLK_STRUCT_VIEW_INFO, VIEW_FIRST_SIZE);
+  WlkViewInfo v = copyStruct(info, WLK_STRUCT_VIEW_INFO);
   checkNoChain(info);
   checkRange(v.sType, "width", v.width, 1, 16384);
   checkRange(v.sType, "height", v.height, 1, 16384);
@@ -18,18 +32,16 @@ WlkViewInfo checkedView(const WlkContext_T& c, const WlkViewInfo* info) {
     fail(WLK_ERROR_UNSUPPORTED_FORMAT, v.sType, "targetFormat", "WlkViewInfo::targetFormat is %u",
          v.targetFormat);
   }
-  checkRange(v.sType, "color", v.color, WLK_COLOR_WAVELENGTHS, WLK_COLOR_SRGB);
-  if ((v.layers & ~uint64_t{WLK_LAYER_ALL}) != 0) {
-    fail(WLK_ERROR_INVALID_ARGUMENT, v.sType, "layers", "WlkViewInfo::layers has unknown bits");
-  }
+  checkRange(v.sType, "colorSpace", v.colorSpace, WLK_COLOR_WAVELENGTHS, WLK_COLOR_LINEAR_SRGB);
+  v.layers = knownLayers(v.layers);
   if (v.composite == WLK_COMPOSITE_BLEND) {
     if (c.headless) {
       fail(WLK_ERROR_WRONG_STATE, v.sType, "composite",
            "headless contexts take WLK_COMPOSITE_COMPUTE and WLK_COMPOSITE_SEPARATE");
     }
-    if (!c.device->info().dualSrcBlend) {
+    if (!c.device->info().blend) {
       fail(WLK_ERROR_MISSING_FEATURE, v.sType, "composite",
-           "WLK_COMPOSITE_BLEND needs the device feature dualSrcBlend");
+           "WLK_COMPOSITE_BLEND needs WLK_VULKAN_FEATURE_BLEND");
     }
   }
   // Headless targets are read back as floats: the one format that loses nothing.
@@ -120,7 +132,7 @@ void setCamera(ViewState& view, const WlkCamera& camera) {
 }
 
 WlkQuality checkedQuality(const WlkQuality* quality) {
-  const WlkQuality q = copyStruct(quality, WLK_STRUCT_QUALITY, QUALITY_FIRST_SIZE);
+  const WlkQuality q = copyStruct(quality, WLK_STRUCT_QUALITY);
   checkNoChain(quality);
   checkRange(q.sType, "level", q.level, WLK_QUALITY_LOW, WLK_QUALITY_ULTRA);
   if (q.sliceCount != 0) {
@@ -154,7 +166,7 @@ WlkQuality checkedQuality(const WlkQuality* quality) {
     checkRange(q.sType, "lightBufferSize", q.lightBufferSize, 0, 0);
   }
   constexpr uint64_t FLAGS =
-      WLK_QUALITY_NO_SKIP | WLK_QUALITY_VOLUME_SHADOWS | WLK_QUALITY_LIGHT_SHADOWS;
+      WLK_QUALITY_FLAG_NO_SKIP | WLK_QUALITY_FLAG_VOLUME_SHADOWS | WLK_QUALITY_FLAG_LIGHT_SHADOWS;
   if ((q.flags & ~FLAGS) != 0) {
     fail(WLK_ERROR_INVALID_ARGUMENT, q.sType, "flags", "WlkQuality::flags has unknown bits");
   }
@@ -247,25 +259,25 @@ WlkResult wlkGetFrameStats(WlkContext context, WlkView view, WlkFrameStats* stat
   return guarded([&]() -> WlkResult {
     WlkContext_T& c = checkContext(context);
     ViewState& state = c.view(view);
-    checkOutput(stats, WLK_STRUCT_FRAME_STATS, sizeof *stats);
+    const WlkFrameStats head = startOutput(stats, WLK_STRUCT_FRAME_STATS);
     checkPointer(passCount, "passCount");
-    if (passes != nullptr && stride < sizeof(WlkPassStats)) {
+    if (passes != nullptr && stride < FIRST_SIZE<WlkPassStats>) {
       fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_FRAME_STATS, "stride",
-           "stride is %u, expected at least %zu", stride, sizeof(WlkPassStats));
+           "stride is %u, expected at least %u", stride, FIRST_SIZE<WlkPassStats>);
     }
     if (state.lastFrame == 0) {
       return WLK_NOT_READY;
     }
     c.harvest(state);
     WlkFrameStats value = state.record.stats;
-    value.sType = stats->sType;
-    value.structSize = stats->structSize;
+    value.sType = head.sType;
+    value.structSize = head.structSize;
     value.next = nullptr;
     value.bytesUploaded = c.bytesUploaded;
     value.deviceMemory = c.device->memory().bytes();
     value.hostMemory = c.memory.bytes();
     value.nonFinitePixels = state.nonFinite;
-    std::memcpy(stats, &value, sizeof value);
+    finishOutput(value, stats);
     const auto available = static_cast<uint32_t>(state.record.passes.size());
     const uint32_t room = passes == nullptr ? available : *passCount;
     *passCount = available;
@@ -273,11 +285,12 @@ WlkResult wlkGetFrameStats(WlkContext context, WlkView view, WlkFrameStats* stat
       for (uint32_t i = 0; i < std::min(room, available); ++i) {
         WlkPassStats pass = state.record.passes[i];
         for (const PassTime& time : state.record.times) {
-          if (time.pass == pass.pass && time.volumeId == pass.volume.id) {
+          if (time.pass == pass.pass && time.objectId == (pass.volume.id | pass.surface.id)) {
             pass.gpuTime_ns = time.nanoseconds;
           }
         }
-        std::memcpy(reinterpret_cast<char*>(passes) + size_t{i} * stride, &pass, sizeof pass);
+        std::memcpy(reinterpret_cast<char*>(passes) + size_t{i} * stride, &pass,
+                    std::min<size_t>(stride, sizeof pass));
       }
     }
     return room < available ? WLK_INCOMPLETE : WLK_SUCCESS;

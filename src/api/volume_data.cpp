@@ -45,18 +45,22 @@ void checkFormat(uint32_t sType, uint32_t format) {
   }
 }
 
-float readVoxel(const unsigned char* p, uint32_t format) {
+float rawVoxel(const unsigned char* p, uint32_t format) {
   if (format == WLK_FORMAT_R32_FLOAT) {
     float x = 0;
     std::memcpy(&x, p, sizeof x);
-    return clean(x);
+    return x;
   }
   if (format == WLK_FORMAT_R16_FLOAT) {
     uint16_t x = 0;
     std::memcpy(&x, p, sizeof x);
-    return clean(floatFromHalf(x));
+    return floatFromHalf(x);
   }
   return static_cast<float>(*p) / 255.0f;
+}
+
+float readVoxel(const unsigned char* p, uint32_t format) {
+  return clean(rawVoxel(p, format));
 }
 
 void addVoxel(VoxelSums& sums, float value, const Edges& voxel) {
@@ -167,7 +171,9 @@ VoxelSums convertVoxels(const WlkVolumeUpload& u, bool toFloat, void* out, const
     for (uint32_t y = 0; y < u.extent[1]; ++y) {
       const auto* from = static_cast<const unsigned char*>(u.data) + z * slicePitch + y * rowPitch;
       for (uint32_t x = 0; x < u.extent[0]; ++x, from += voxel) {
-        const float value = readVoxel(from, u.format);
+        const float raw = rawVoxel(from, u.format);
+        const float value = clean(raw);
+        sums.replaced += value != raw ? 1U : 0U;
         if (value > 0.0f) {
           const Edges at{u.offset[0] + x, u.offset[1] + y, u.offset[2] + z};
           addVoxel(sums, value, at);

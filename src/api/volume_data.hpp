@@ -9,7 +9,8 @@ namespace welkin {
 
 uint64_t bytesPerVoxel(uint32_t format);
 void checkFormat(uint32_t sType, uint32_t format);
-// A voxel's value, cleaned as below; any alignment.
+// A voxel's value, as it is and cleaned as below; any alignment.
+float rawVoxel(const unsigned char* p, uint32_t format);
 float readVoxel(const unsigned char* p, uint32_t format);
 
 void checkUpload(const VolumeState& volume, const WlkVolumeUpload& upload);
@@ -25,6 +26,7 @@ struct VoxelSums {
   double sum = 0;
   double squares = 0;
   VoxelRange filled;  // of the volume's voxels
+  uint64_t replaced = 0;
 };
 void addVoxel(VoxelSums& sums, float value, const Edges& voxel);
 // Also brings up to date the `faces` of the bricks of a volume of `size`.

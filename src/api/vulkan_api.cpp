@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "api/context.hpp"
+#include "api/engine_image.hpp"
 #include "api/light_shadow_input.hpp"
 #include "api/surface_data.hpp"
 
@@ -28,48 +29,20 @@ VkImageAspectFlags depthAspects(VkFormat format) {
   }
 }
 
-WlkVulkanImage checkedImage(const WlkVulkanImage* image, const char* role, uint32_t width,
-                            uint32_t height) {
-  const WlkVulkanImage i = copyStruct(image, WLK_STRUCT_VULKAN_IMAGE);
-  checkNoChain(image);
-  if (i.image == VK_NULL_HANDLE) {
-    fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, role, "WlkVulkanImage::image of %s is null", role);
-  }
-  if (i.width != width || i.height != height) {
-    fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, role, "%s has %u x %u pixels, the view %u x %u", role,
-         i.width, i.height, width, height);
-  }
-  if (i.after.layout == VK_IMAGE_LAYOUT_UNDEFINED ||
-      i.after.layout == VK_IMAGE_LAYOUT_PREINITIALIZED) {
-    fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, role, "%s: after.layout must be a real layout", role);
-  }
-  return i;
-}
-
-TargetImage importTarget(WlkContext_T& c, const WlkVulkanImage& image, VkImageAspectFlags read,
-                         VkImageAspectFlags barrier) {
-  TargetImage target;
-  target.image = image.image;
-  target.view = importView(c, image, VK_IMAGE_VIEW_TYPE_2D, read);
-  target.barrierAspect = barrier;
-  target.before = image.before;
-  target.after = image.after;
-  return target;
-}
-
 TargetImage colorTarget(WlkContext_T& c, const WlkVulkanImage* image, const char* role,
                         const ViewState& view, bool formatMatters) {
   if (image == nullptr) {
     fail(WLK_ERROR_INVALID_ARGUMENT, WLK_STRUCT_VULKAN_VIEW_TARGETS, role,
          "WlkVulkanViewTargets::%s is null", role);
   }
-  const WlkVulkanImage value = checkedImage(image, role, view.info.width, view.info.height);
+  const WlkVulkanImage value = checkedEngineImage(image, role);
+  checkImageSize(value, role, "view", view.info.width, view.info.height);
   if (formatMatters && value.format != targetFormat(view.info.targetFormat)) {
     fail(WLK_ERROR_UNSUPPORTED_FORMAT, WLK_STRUCT_VULKAN_IMAGE, role,
          "%s has VkFormat %d, WlkViewInfo::targetFormat asks for %d", role,
          static_cast<int>(value.format), static_cast<int>(targetFormat(view.info.targetFormat)));
   }
-  return importTarget(c, value, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
+  return importTarget(c, value, VK_IMAGE_VIEW_TYPE_2D);
 }
 
 // Throws if the format is none that Welkin reads as depth.
@@ -91,21 +64,20 @@ void importShadowMap(WlkContext_T& c, const ViewState& view, const WlkVulkanView
          "WlkVulkanViewTargets::%s is null: a shadow map needs both", missing);
   }
   targets.lightShadow = lightShadowOf(c, view, t.lightShadow);
-  const WlkVulkanImage named = copyStruct(t.shadowMap, WLK_STRUCT_VULKAN_IMAGE);
-  const WlkVulkanImage image = checkedImage(t.shadowMap, "shadowMap", named.width, named.height);
-  if (image.depth < t.lightShadow->cascadeCount || image.depth > 2048) {
+  const WlkVulkanImage image = checkedEngineImage(t.shadowMap, "shadowMap", 2048);
+  if (image.depth != 1 || image.layerCount < t.lightShadow->cascadeCount) {
     fail(WLK_ERROR_INVALID_ARGUMENT, image.sType, "shadowMap",
-         "shadowMap has %u layers, WlkLightShadow::cascadeCount is %u", image.depth,
-         t.lightShadow->cascadeCount);
+         "shadowMap has the depth %u and %u layers, expected 1 and WlkLightShadow::cascadeCount %u",
+         image.depth, image.layerCount, t.lightShadow->cascadeCount);
   }
   const VkImageAspectFlags aspects = checkedDepth(image, "shadowMap");
-  TargetImage& map = targets.shadowMap;
-  map.image = image.image;
-  map.view = importView(c, image, VK_IMAGE_VIEW_TYPE_2D_ARRAY,
-                        aspects & ~VkImageAspectFlags{VK_IMAGE_ASPECT_STENCIL_BIT}, image.depth);
-  map.barrierAspect = aspects;
-  map.before = image.before;
-  map.after = image.after;
+  targets.shadowMap =
+      importTarget(c, image, VK_IMAGE_VIEW_TYPE_2D_ARRAY,
+                   aspects & ~VkImageAspectFlags{VK_IMAGE_ASPECT_STENCIL_BIT}, aspects);
+}
+
+bool sameImage(const WlkVulkanImage& a, const WlkVulkanImage& b) {
+  return a.image == b.image && a.mipLevel == b.mipLevel && a.baseArrayLayer == b.baseArrayLayer;
 }
 
 ViewTargets importTargets(WlkContext_T& c, const ViewState& view, const WlkVulkanViewTargets& t) {
@@ -114,10 +86,12 @@ ViewTargets importTargets(WlkContext_T& c, const ViewState& view, const WlkVulka
     importShadowMap(c, view, t, targets);
   }
   if (t.depth != nullptr) {
-    const WlkVulkanImage depth = checkedImage(t.depth, "depth", view.info.width, view.info.height);
+    const WlkVulkanImage depth = checkedEngineImage(t.depth, "depth");
+    checkImageSize(depth, "depth", "view", view.info.width, view.info.height);
     const VkImageAspectFlags aspects = checkedDepth(depth, "depth");
     targets.depth =
-        importTarget(c, depth, aspects & ~VkImageAspectFlags{VK_IMAGE_ASPECT_STENCIL_BIT}, aspects);
+        importTarget(c, depth, VK_IMAGE_VIEW_TYPE_2D,
+                     aspects & ~VkImageAspectFlags{VK_IMAGE_ASPECT_STENCIL_BIT}, aspects);
   }
   if (view.info.composite == WLK_COMPOSITE_SEPARATE) {
     targets.target0 = colorTarget(c, t.radiance, "radiance", view, true);
@@ -126,7 +100,7 @@ ViewTargets importTargets(WlkContext_T& c, const ViewState& view, const WlkVulka
   }
   targets.target0 = colorTarget(c, t.color, "color", view, true);
   if (view.info.composite == WLK_COMPOSITE_COMPUTE && t.colorInput != nullptr) {
-    if (t.colorInput->image == t.color->image) {
+    if (sameImage(checkedEngineImage(t.colorInput, "colorInput"), *t.color)) {
       targets.inputIsTarget = true;
     } else {
       targets.colorInput = colorTarget(c, t.colorInput, "colorInput", view, false);
@@ -174,38 +148,24 @@ bool everythingUploaded(const WlkContext_T& c) {
   return surfacesUploaded(c);
 }
 
-VkImageView importView(WlkContext_T& c, const WlkVulkanImage& image, VkImageViewType type,
-                       VkImageAspectFlags aspect, uint32_t layers) {
-  for (const ImportedView& known : c.imported) {
-    if (known.image == image.image && known.type == type && known.format == image.format &&
-        known.layers == layers) {
-      return known.view;
-    }
-  }
-  c.imported.reserve(c.imported.size() + 1);
-  const VkImageView view =
-      vk::createView(*c.device, image.image, image.format, type, aspect, layers);
-  c.imported.push_back({image.image, type, image.format, layers, view});
-  return view;
-}
-
 }  // namespace welkin
 
 WlkResult wlkVulkanGetRequirements(WlkVulkanRequirements* requirements) {
   return guarded([&] {
-    checkOutput(requirements, WLK_STRUCT_VULKAN_REQUIREMENTS, sizeof *requirements);
-    requirements->apiVersion = VK_API_VERSION_1_3;
-    requirements->queueFlags = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-    requirements->synchronization2 = 1;
-    requirements->dynamicRendering = 1;
-    requirements->shaderStorageImageWriteWithoutFormat = 1;
-    requirements->dualSrcBlend = 1;
-    requirements->fragmentStoresAndAtomics = 1;
-    requirements->depthUsage = VK_IMAGE_USAGE_SAMPLED_BIT;
-    requirements->colorInputUsage = VK_IMAGE_USAGE_SAMPLED_BIT;
-    requirements->storageTargetUsage = VK_IMAGE_USAGE_STORAGE_BIT;
-    requirements->blendTargetUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-    requirements->volumeUsage = VK_IMAGE_USAGE_SAMPLED_BIT;
+    WlkVulkanRequirements value = startOutput(requirements, WLK_STRUCT_VULKAN_REQUIREMENTS);
+    value.apiVersion = VK_API_VERSION_1_3;
+    value.queueFlags = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    value.synchronization2 = 1;
+    value.dynamicRendering = 1;
+    value.shaderStorageImageWriteWithoutFormat = 1;
+    value.dualSrcBlend = 1;
+    value.fragmentStoresAndAtomics = 1;
+    value.depthUsage = VK_IMAGE_USAGE_SAMPLED_BIT;
+    value.colorInputUsage = VK_IMAGE_USAGE_SAMPLED_BIT;
+    value.storageTargetUsage = VK_IMAGE_USAGE_STORAGE_BIT;
+    value.blendTargetUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    value.volumeUsage = VK_IMAGE_USAGE_SAMPLED_BIT;
+    finishOutput(value, requirements);
     return WLK_SUCCESS;
   });
 }
@@ -235,11 +195,8 @@ WlkResult wlkVulkanSetVolumeImage(WlkContext context, WlkVolume volume, uint32_t
       keepImage(c, state, state.fields[field], std::nullopt);
       return WLK_SUCCESS;
     }
-    const WlkVulkanImage i = checkedImage(image, "volume image", state.size[0], state.size[1]);
-    if (i.depth != state.size[2]) {
-      fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, "depth",
-           "WlkVulkanImage::depth is %u, the volume has %u voxels along z", i.depth, state.size[2]);
-    }
+    const WlkVulkanImage i = checkedEngineImage(image, "volume image");
+    checkImageSize(i, "volume image", "volume", state.size[0], state.size[1], state.size[2]);
     if (i.format != VK_FORMAT_R16_SFLOAT && i.format != VK_FORMAT_R32_SFLOAT &&
         i.format != VK_FORMAT_R16_UNORM && i.format != VK_FORMAT_R8_UNORM) {
       fail(WLK_ERROR_UNSUPPORTED_FORMAT, i.sType, "format",
@@ -251,7 +208,7 @@ WlkResult wlkVulkanSetVolumeImage(WlkContext context, WlkVolume volume, uint32_t
       fail(WLK_ERROR_INVALID_ARGUMENT, i.sType, "before",
            "a volume image stays in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL");
     }
-    importView(c, i, VK_IMAGE_VIEW_TYPE_3D, VK_IMAGE_ASPECT_COLOR_BIT);
+    importView(c, i, VK_IMAGE_VIEW_TYPE_3D);
     keepImage(c, state, state.fields[field], i);
     return WLK_SUCCESS;
   });
@@ -307,8 +264,7 @@ WlkResult wlkVulkanCmdRenderView(WlkContext context, VkCommandBuffer commandBuff
   return guarded([&] {
     WlkContext_T& c = requireFrame(context, commandBuffer, "wlkVulkanCmdRenderView");
     ViewState& state = c.view(view);
-    const WlkVulkanViewTargets t =
-        copyStruct(targets, WLK_STRUCT_VULKAN_VIEW_TARGETS, VIEW_TARGETS_FIRST_SIZE);
+    const WlkVulkanViewTargets t = copyStruct(targets, WLK_STRUCT_VULKAN_VIEW_TARGETS);
     checkNoChain(targets);
     if (!state.prepared) {
       fail(WLK_ERROR_NOT_PREPARED, 0, "view", "call wlkPrepare before recording");

@@ -4,7 +4,7 @@
 namespace welkin {
 
 void imageBarrier(const vk::Dispatch& vk, VkCommandBuffer commands, VkImage image,
-                  VkImageAspectFlags aspect, const WlkVulkanImageState& from,
+                  const VkImageSubresourceRange& range, const WlkVulkanImageState& from,
                   const WlkVulkanImageState& to) {
   VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
   barrier.srcStageMask = from.stages;
@@ -16,7 +16,7 @@ void imageBarrier(const vk::Dispatch& vk, VkCommandBuffer commands, VkImage imag
   barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   barrier.image = image;
-  barrier.subresourceRange = {aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+  barrier.subresourceRange = range;
   VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
   info.imageMemoryBarrierCount = 1;
   info.pImageMemoryBarriers = &barrier;

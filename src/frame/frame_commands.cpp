@@ -58,26 +58,27 @@ void FrameCommands::barrier(const Access& from, const Access& to) {
   view.record.stats.barriers += 1;
 }
 
-void FrameCommands::image(VkImage handle, VkImageAspectFlags aspect,
+void FrameCommands::image(VkImage handle, const VkImageSubresourceRange& range,
                           const WlkVulkanImageState& from, const WlkVulkanImageState& to) {
-  imageBarrier(vk, commands, handle, aspect, from, to);
+  imageBarrier(vk, commands, handle, range, from, to);
   view.record.stats.barriers += 1;
 }
 
 void FrameCommands::firstUse(vk::Image& target) {
   if (target && target.layout == VK_IMAGE_LAYOUT_UNDEFINED) {
-    image(target.handle(), VK_IMAGE_ASPECT_COLOR_BIT,
+    image(target.handle(), WHOLE_IMAGE,
           {VK_IMAGE_LAYOUT_UNDEFINED, 0, VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE},
           GENERAL_STATE);
     target.layout = VK_IMAGE_LAYOUT_GENERAL;
   }
 }
 
-WlkPassStats passStats(const char* name, uint32_t pass, uint64_t volume) {
+WlkPassStats passStats(const char* name, uint32_t pass, uint64_t volume, uint64_t surface) {
   WlkPassStats stats{};
   std::snprintf(stats.name, sizeof stats.name, "%s", name);
   stats.pass = pass;
   stats.volume.id = volume;
+  stats.surface.id = surface;
   return stats;
 }
 

@@ -70,12 +70,12 @@ struct FrameCommands {
   // Everything shaders have written, to shaders.
   void orderShaders();
   void barrier(const Access& from, const Access& to);
-  void image(VkImage handle, VkImageAspectFlags aspect, const WlkVulkanImageState& from,
+  void image(VkImage handle, const VkImageSubresourceRange& range, const WlkVulkanImageState& from,
              const WlkVulkanImageState& to);
   // Brings an image that nothing has been written to yet into the layout GENERAL.
   void firstUse(vk::Image& target);
 };
 
-WlkPassStats passStats(const char* name, uint32_t pass, uint64_t volume);
+WlkPassStats passStats(const char* name, uint32_t pass, uint64_t volume, uint64_t surface = 0);
 
 }  // namespace welkin

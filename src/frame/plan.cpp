@@ -317,9 +317,9 @@ SliceQuality resolveQuality(const WlkQuality& quality) {
       scattering == WLK_SCATTERING_FORWARD || scattering == WLK_SCATTERING_FORWARD_INTEGER;
   result.wholeOrders = scattering == WLK_SCATTERING_FORWARD_INTEGER;
   result.multipleSky = scattering != WLK_SCATTERING_SINGLE;
-  result.volumeShadows = (quality.flags & WLK_QUALITY_VOLUME_SHADOWS) != 0;
-  result.lightShadows = (quality.flags & WLK_QUALITY_LIGHT_SHADOWS) != 0;
-  result.noSkip = (quality.flags & WLK_QUALITY_NO_SKIP) != 0;
+  result.volumeShadows = (quality.flags & WLK_QUALITY_FLAG_VOLUME_SHADOWS) != 0;
+  result.lightShadows = (quality.flags & WLK_QUALITY_FLAG_LIGHT_SHADOWS) != 0;
+  result.noSkip = (quality.flags & WLK_QUALITY_FLAG_NO_SKIP) != 0;
   result.halfVolumes = halvesVolumes(quality);
   result.lightRoom = result.lightSize;
   result.cellRoom = result.transportCells;

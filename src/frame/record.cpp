@@ -66,7 +66,7 @@ class Recorder {
     releaseTargets();
     slot_.passes.clear();
     for (const WlkPassStats& pass : view_.record.passes) {
-      slot_.passes.push_back({pass.pass, pass.volume.id, 0});
+      slot_.passes.push_back({pass.pass, pass.volume.id | pass.surface.id, 0});
     }
     view_.record.stats.descriptorWrites += c_.bindings.writes();
     slot_.frameIndex = in_.frameIndex;
@@ -234,7 +234,7 @@ class Recorder {
     const std::array images = imageList();
     for (size_t i = 0; i < images.size(); ++i) {
       if (*images[i] && used(i)) {
-        c_.image(images[i]->image, images[i]->barrierAspect, images[i]->before, work_[i]);
+        c_.image(images[i]->image, images[i]->range, images[i]->before, work_[i]);
       }
     }
   }
@@ -247,7 +247,7 @@ class Recorder {
       }
       const WlkVulkanImageState& from = used(i) ? work_[i] : images[i]->before;
       if (used(i) || from.layout != images[i]->after.layout) {
-        c_.image(images[i]->image, images[i]->barrierAspect, from, images[i]->after);
+        c_.image(images[i]->image, images[i]->range, from, images[i]->after);
       }
     }
   }

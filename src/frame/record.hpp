@@ -14,7 +14,7 @@ namespace welkin {
 struct TargetImage {
   VkImage image = VK_NULL_HANDLE;
   VkImageView view = VK_NULL_HANDLE;
-  VkImageAspectFlags barrierAspect = VK_IMAGE_ASPECT_COLOR_BIT;
+  VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};  // that is moved
   WlkVulkanImageState before{};
   WlkVulkanImageState after{};
   explicit operator bool() const { return image != VK_NULL_HANDLE; }
@@ -70,10 +70,12 @@ void recordView(vk::Device& device, const vk::Pipelines& pipelines, VkCommandBuf
 // Reads counters and timestamps of frames up to `completed` into view.record and view.nonFinite.
 void harvest(vk::Device& device, ViewState& view, uint64_t completed);
 
-// One image barrier over everything in an image.
+// One image barrier over a part of an image, or over all of one of ours.
 void imageBarrier(const vk::Dispatch& vk, VkCommandBuffer commands, VkImage image,
-                  VkImageAspectFlags aspect, const WlkVulkanImageState& from,
+                  const VkImageSubresourceRange& range, const WlkVulkanImageState& from,
                   const WlkVulkanImageState& to);
+constexpr VkImageSubresourceRange WHOLE_IMAGE{VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS,
+                                              0, VK_REMAINING_ARRAY_LAYERS};
 
 /// Which stages a memory barrier separates, and the accesses it makes visible.
 struct Access {

@@ -425,7 +425,7 @@ void prepareVolume(vk::Device& device, VolumeState& volume, uint32_t form) {
   auto* layers = static_cast<char*>(made.staging.data());
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
     uint32_t twin = 0;
-    while (volume.fields[twin].mediumId != volume.fields[i].mediumId) {
+    while (volume.fields[twin].tables != volume.fields[i].tables) {
       ++twin;
     }
     if (twin < i) {

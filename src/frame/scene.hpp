@@ -29,11 +29,16 @@ namespace welkin {
 constexpr int DEPTH_NODES = 32;  // of a scattering table, see tables/multiscatter.hpp
 constexpr uint32_t FIELD_KINDS = 512 * (1 + WLK_MAX_FIELDS);  // values of VolumeState::fieldKind
 
+// Made where they are asked for first.
+struct LateNodes {
+  std::shared_ptr<const DiameterNodes> made;
+};
+
+// Fields have a copy and share what is dear: they outlive the medium's handle.
 struct MediumState {
   Medium medium;
-  std::shared_ptr<const DiameterNodes> nodes;  // made where they are asked for first
-  std::shared_ptr<MediumTables> tables;        // shared with the fields of this medium
-  uint32_t users = 0;
+  std::shared_ptr<LateNodes> nodes;
+  std::shared_ptr<MediumTables> tables;
 };
 
 // Voxels [first, end) along each axis; empty if none.
@@ -45,9 +50,9 @@ struct VoxelRange {
 // A field's image: Welkin's own, made by the first upload, of voxels or an atlas of bricks, or the
 // engine's.
 struct FieldState {
-  uint64_t mediumId = 0;
   Medium medium;
-  std::shared_ptr<MediumTables> tables;  // of the medium
+  std::shared_ptr<LateNodes> nodes;
+  std::shared_ptr<MediumTables> tables;
   float extinctionScale = 0;
   // Of what extinction takes from light: what is turned, by the mean of 1 - cosine, or absorbed,
   // and what is absorbed alone.
@@ -203,10 +208,10 @@ struct BoundSet {
   std::array<uint64_t, vk::MOST_BINDINGS> bound{};
 };
 
-// GPU time of a pass over a volume.
+// GPU time of a pass over a volume or a surface.
 struct PassTime {
   uint32_t pass = 0;
-  uint64_t volumeId = 0;
+  uint64_t objectId = 0;
   uint64_t nanoseconds = 0;
 };
 
@@ -326,13 +331,15 @@ struct ShadowMapResources {
 
 struct ShadowMapState {
   explicit ShadowMapState(std::pmr::memory_resource* memory) : resources(memory) {}
-  WlkShadowMapInfo info{};
+  WlkCloudShadowInfo info{};
   ShadowMapResources resources;
   bool prepared = false;
-  VkImage image = VK_NULL_HANDLE;  // that holds it
-  uint64_t lastFrame = 0;          // 0: none recorded yet
+  VkImage image = VK_NULL_HANDLE;  // that holds it, in this level and layer
+  uint32_t mipLevel = 0;
+  uint32_t layer = 0;
+  uint64_t lastFrame = 0;  // 0: none recorded yet
   uint64_t gpuTime_ns = 0;
-  WlkShadowMapState last{};
+  WlkCloudShadowState last{};
 };
 
 // A volume of the context that the map may show.
@@ -430,7 +437,8 @@ struct ViewState {
   WlkQuality quality{};
   std::optional<WlkAerialPerspective> aerial;
   bool volumeDistance = false;
-  Governor governor;  // where the quality is governed
+  bool shadowUnused = false;  // an engine's map, in the last frame that got one
+  Governor governor;          // where the quality is governed
   ViewResources resources;
   Plan plan;
   std::pmr::vector<PlanVolume> planVolumes;

@@ -37,7 +37,7 @@ float keptSideways(const VolumeState& volume) {
 
 }  // namespace
 
-ShadowLayout layoutShadowMap(const WlkShadowMapInfo& info, const glm::dvec3& toLight,
+ShadowLayout layoutShadowMap(const WlkCloudShadowInfo& info, const glm::dvec3& toLight,
                              const glm::dvec3& up) {
   ShadowLayout s;
   s.along = -toLight;
@@ -71,7 +71,7 @@ std::array<double, 12> mapFromWorld(const ShadowLayout& s) {
   return m;
 }
 
-interface_::ShadowVolume shadowVolume(const ShadowLayout& s, const WlkShadowMapInfo& info,
+interface_::ShadowVolume shadowVolume(const ShadowLayout& s, const WlkCloudShadowInfo& info,
                                       const VolumeState& volume, bool scattered) {
   const glm::dmat4x3& box = volume.worldFromBox;
   const glm::dvec3 middle = box * glm::dvec4(0.5, 0.5, 0.5, 1.0) - s.corner;

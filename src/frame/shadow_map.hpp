@@ -22,7 +22,7 @@ struct ShadowLayout {
 
 // `up` is the planet's. The axes turn as little as possible with the light: straight from below is
 // the only direction around which they jump.
-ShadowLayout layoutShadowMap(const WlkShadowMapInfo& info, const glm::dvec3& toLight,
+ShadowLayout layoutShadowMap(const WlkCloudShadowInfo& info, const glm::dvec3& toLight,
                              const glm::dvec3& up);
 
 // Row-major 3x4 to (u, v, d).
@@ -30,7 +30,7 @@ std::array<double, 12> mapFromWorld(const ShadowLayout& layout);
 
 // Constants of a volume's pass; its `rect` is empty where the volume does not reach the map.
 // `scattered`: scattered light goes on.
-interface_::ShadowVolume shadowVolume(const ShadowLayout& layout, const WlkShadowMapInfo& info,
+interface_::ShadowVolume shadowVolume(const ShadowLayout& layout, const WlkCloudShadowInfo& info,
                                       const VolumeState& volume, bool scattered);
 
 }  // namespace welkin

@@ -83,8 +83,8 @@ class ShadowRecorder {
     const uint32_t content = map.info.content;
     push_.width = map.info.width;
     push_.height = map.info.height;
-    push_.flags = (content == WLK_SHADOW_TRANSMITTANCE ? interface_::SHADOW_COLOR : 0) |
-                  (content == WLK_SHADOW_LAYER ? interface_::SHADOW_LAYER : 0) |
+    push_.flags = (content == WLK_CLOUD_SHADOW_TRANSMITTANCE ? interface_::SHADOW_COLOR : 0) |
+                  (content == WLK_CLOUD_SHADOW_LAYER ? interface_::SHADOW_LAYER : 0) |
                   (half ? interface_::SHADOW_HALF : 0) |
                   (input.scattered ? interface_::SHADOW_ABSORBED : 0);
   }
@@ -166,7 +166,9 @@ class ShadowRecorder {
 
   bool unchanged() const {
     // The engine may have written its volume's image since.
-    return !external_ && map_.image == target_.image && r_.key == now_ &&
+    return !external_ && map_.image == target_.image &&
+           map_.mipLevel == target_.range.baseMipLevel &&
+           map_.layer == target_.range.baseArrayLayer && r_.key == now_ &&
            target_.before.layout != VK_IMAGE_LAYOUT_UNDEFINED;
   }
 
@@ -219,6 +221,8 @@ class ShadowRecorder {
     r_.slots[in_.slot].frameIndex = in_.frameIndex;
     result_.recorded = 1;
     map_.image = target_.image;
+    map_.mipLevel = target_.range.baseMipLevel;
+    map_.layer = target_.range.baseArrayLayer;
     std::swap(r_.key, now_);
     if (external_) {
       r_.key.clear();  // what was uploaded may be back in the next frame
@@ -274,7 +278,7 @@ class ShadowRecorder {
   }
 
   void image(const WlkVulkanImageState& from, const WlkVulkanImageState& to) {
-    imageBarrier(vk_, commands_, target_.image, target_.barrierAspect, from, to);
+    imageBarrier(vk_, commands_, target_.image, target_.range, from, to);
     result_.barriers += 1;
   }
 
@@ -289,13 +293,13 @@ class ShadowRecorder {
   std::pmr::vector<char>& now_ = r_.now;
   ShadowLayout layout_;
   ShadowConstants push_{};
-  WlkShadowMapState result_{};
+  WlkCloudShadowState result_{};
   bool external_ = false;
 };
 
 }  // namespace
 
-void prepareShadowMap(vk::Device& device, vk::Pipelines& pipelines, const WlkShadowMapInfo& info,
+void prepareShadowMap(vk::Device& device, vk::Pipelines& pipelines, const WlkCloudShadowInfo& info,
                       uint32_t volumeCount, uint32_t framesInFlight,
                       std::span<const uint32_t> fieldKinds, ShadowMapResources& made) {
   pipelines.prepare(resolveKey());
@@ -309,7 +313,7 @@ void prepareShadowMap(vk::Device& device, vk::Pipelines& pipelines, const WlkSha
         std::max<VkDeviceSize>(device.properties().limits.minUniformBufferOffsetAlignment, 16));
     made.uniforms = vk::Buffer(device, made.stride * (volumeCount + 1) * framesInFlight,
                                VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, true);
-    const VkDeviceSize floats = info.content == WLK_SHADOW_LAYER ? 4 : 1;
+    const VkDeviceSize floats = info.content == WLK_CLOUD_SHADOW_LAYER ? 4 : 1;
     const VkDeviceSize bytes = VkDeviceSize{info.width} * info.height * floats * sizeof(float);
     if (bytes > device.properties().limits.maxStorageBufferRange) {
       fail(WLK_ERROR_LIMIT_EXCEEDED, info.sType, "width",

@@ -20,7 +20,7 @@ struct ShadowMapInput {
 
 // Makes pipelines and buffers for `volumeCount` volumes. Strong guarantee: on failure `made` holds
 // nothing.
-void prepareShadowMap(vk::Device& device, vk::Pipelines& pipelines, const WlkShadowMapInfo& info,
+void prepareShadowMap(vk::Device& device, vk::Pipelines& pipelines, const WlkCloudShadowInfo& info,
                       uint32_t volumeCount, uint32_t framesInFlight,
                       std::span<const uint32_t> fieldKinds, ShadowMapResources& made);
 void destroyShadowMap(vk::Device& device, ShadowMapResources& resources);

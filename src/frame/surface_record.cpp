@@ -39,8 +39,8 @@ class SurfaceRecorder {
         rank_(static_cast<uint32_t>(&planned - commands.view.plan.surfaces.data())) {}
 
   void run(bool first) {
-    WlkPassStats light = passStats("surface light", WLK_PASS_SURFACE_LIGHT, planned_.id);
-    WlkPassStats eye = passStats("surface", WLK_PASS_SURFACE, planned_.id);
+    WlkPassStats light = passStats("surface light", WLK_PASS_SURFACE_LIGHT, 0, planned_.id);
+    WlkPassStats eye = passStats("surface", WLK_PASS_SURFACE, 0, planned_.id);
     light.reason = planned_.lightReason;
     eye.reason = planned_.eyeReason;
     index_ = static_cast<uint32_t>(passes().size());
@@ -172,10 +172,10 @@ class SurfaceRecorder {
                                      VK_ACCESS_2_TRANSFER_WRITE_BIT};
     c_.barrier({COMPUTE, SHADER_ACCESS},
                {VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT});
-    c_.image(image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, GENERAL_STATE, target);
+    c_.image(image.handle(), WHOLE_IMAGE, GENERAL_STATE, target);
     c_.vk.CmdCopyBufferToImage(c_.commands, from.handle(), image.handle(), VK_IMAGE_LAYOUT_GENERAL,
                                static_cast<uint32_t>(regions.size()), regions.data());
-    c_.image(image.handle(), VK_IMAGE_ASPECT_COLOR_BIT, target, GENERAL_STATE);
+    c_.image(image.handle(), WHOLE_IMAGE, target, GENERAL_STATE);
   }
 
   void recordEye(WlkPassStats& stats, bool first) {

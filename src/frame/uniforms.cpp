@@ -38,7 +38,7 @@ void fillSky(const AirState& air, double altitude, const Plan& plan, const SkyLi
   out.skyView = {static_cast<float>(model::f64::horizonMu(h, radius)), static_cast<float>(upper),
                  static_cast<float>(sky.fogScaleHeight), 1};
   if (plan.absorber) {
-    out.absorber = glm::vec4(vec(air.absorber->extinction), air.absorber->peakAltitude);
+    out.absorber = glm::vec4(vec(air.absorber->absorption), air.absorber->peakAltitude);
     out.skyView.w = air.absorber->halfWidth;
   }
   out.eyeFog = sky.eyeFog;
@@ -49,18 +49,6 @@ void fillSky(const AirState& air, double altitude, const Plan& plan, const SkyLi
   out.skyZeniths.x = sky.groundFog;
   out.skyZeniths.w = static_cast<float>(plan.skyZeniths - interface_::SKY_BELOW);
   out.fogBound = sky.fogBound;
-}
-
-// From radiance at 680, 550 and 440 nm, relative to sunlight, to linear sRGB: fitted to skies of 40
-// wavelengths (tests/bench/sky_color.cpp, docs/results/sky-color.json).
-void fillColor(uint32_t color, interface_::FrameUniforms& out) {
-  if (color == WLK_COLOR_SRGB) {
-    out.colorRed = {0.67230f, 0.55480f, -0.12925f, 0.0f};
-    out.colorGreen = {-0.05182f, 1.02662f, 0.00212f, 0.0f};
-    out.colorBlue = {-0.03470f, 0.05153f, 0.92361f, 0.0f};
-  } else {
-    out.colorRed.x = out.colorGreen.y = out.colorBlue.z = 1.0f;
-  }
 }
 
 void fillLight(const WlkLight& light, const glm::dvec3& up, interface_::LightUniforms& out) {
@@ -153,6 +141,17 @@ void chooseSkyTable(const SkyLightConstants& sky, double planetRadius, const Pla
                                               : interface_::SKY_ABOVE + interface_::SKY_BELOW;
 }
 
+// Linear sRGB: fitted to skies of 40 wavelengths (tests/bench/sky_color.cpp,
+// docs/results/sky-color.json).
+ColorRows colorRows(uint32_t colorSpace) {
+  if (colorSpace == WLK_COLOR_LINEAR_SRGB) {
+    return {{{0.67230f, 0.55480f, -0.12925f},
+             {-0.05182f, 1.02662f, 0.00212f},
+             {-0.03470f, 0.05153f, 0.92361f}}};
+  }
+  return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+}
+
 void fillFrame(const AirState& air, const SkyLightState& sky, const ViewState& view,
                interface_::FrameUniforms& out) {
   out = {};
@@ -176,7 +175,11 @@ void fillFrame(const AirState& air, const SkyLightState& sky, const ViewState& v
   for (uint32_t i = 0; i < view.plan.lights.count; ++i) {
     fillLight(air.lights[view.plan.lights.light[i].index], frame.up, out.lights[i]);
   }
-  fillColor(view.info.color, out);
+  const ColorRows color = colorRows(view.info.colorSpace);
+  const auto row = [&](size_t i) { return glm::vec4(color[i][0], color[i][1], color[i][2], 0); };
+  out.colorRed = row(0);
+  out.colorGreen = row(1);
+  out.colorBlue = row(2);
   if (air.sky) {
     out.air = glm::vec4(vec(air.sky->rayleighScattering), air.sky->scaleHeight);
   }

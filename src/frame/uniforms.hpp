@@ -64,6 +64,10 @@ void fillBricks(const VolumeState& volume, Constants& out) {
   }
 }
 
+// What multiplies radiance at 680, 550 and 440 nm, relative to sunlight, to WLK_COLOR_*.
+using ColorRows = std::array<std::array<float, 3>, 3>;
+ColorRows colorRows(uint32_t colorSpace);
+
 void fillFrame(const AirState& air, const SkyLightState& sky, const ViewState& view,
                interface_::FrameUniforms& out);
 // Whether the eye is so high that its table is too coarse for the edge of night below.

@@ -20,10 +20,10 @@ constexpr WlkVulkanImageState SAMPLED{
     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
     VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
 
-WlkShadowMapInfo emptyInfo() {
-  WlkShadowMapInfo info{};
+WlkCloudShadowInfo emptyInfo() {
+  WlkCloudShadowInfo info{};
   info.width = info.height = SIZE;
-  info.content = WLK_SHADOW_LAYER;
+  info.content = WLK_CLOUD_SHADOW_LAYER;
   info.maxSamples = MAX_SAMPLES;
   info.extent[0] = info.extent[1] = 1;
   return info;
@@ -32,7 +32,7 @@ WlkShadowMapInfo emptyInfo() {
 // Places the map around all volumes that cast shadows: it does not move with the camera. Returns
 // the volumes' least distance along the light from the world's origin. m.
 double coverVolumes(std::span<const ShadowCaster> casters, const glm::dvec3& toLight,
-                    const glm::dvec3& up, WlkShadowMapInfo& info) {
+                    const glm::dvec3& up, WlkCloudShadowInfo& info) {
   const ShadowLayout axes = layoutShadowMap(info, toLight, up);
   glm::dvec3 lo(1e300);
   glm::dvec3 hi(-1e300);
@@ -58,7 +58,7 @@ double coverVolumes(std::span<const ShadowCaster> casters, const glm::dvec3& toL
 }
 
 // Rows from positions relative to the eye, and where the first volume begins.
-void writePlace(const WlkShadowMapState& state, const glm::dvec3& eye, double least,
+void writePlace(const WlkCloudShadowState& state, const glm::dvec3& eye, double least,
                 const glm::dvec3& along, char* uniforms) {
   std::array<glm::vec4, 4> rows{};
   const double* m = state.mapFromWorld;
@@ -96,8 +96,8 @@ bool recordViewShadow(const vk::Device& device, const vk::Pipelines& pipelines,
     return false;
   }
   WlkPassStats stats{};
-  std::snprintf(stats.name, sizeof stats.name, "shadow map");
-  stats.pass = WLK_PASS_SHADOW_MAP;
+  std::snprintf(stats.name, sizeof stats.name, "cloud shadow");
+  stats.pass = WLK_PASS_CLOUD_SHADOW;
   stats.reason = view.plan.shadowReason;
   if (view.plan.shadows) {
     r.shadowCasters.clear();
@@ -125,7 +125,7 @@ bool recordViewShadow(const vk::Device& device, const vk::Pipelines& pipelines,
     target.after = SAMPLED;
     recordShadowMap(device, pipelines, commands, r.shadow, input, target, false);
     r.shadowImage.layout = SAMPLED.layout;
-    const WlkShadowMapState& state = r.shadow.last;
+    const WlkCloudShadowState& state = r.shadow.last;
     stats.reason = state.reason;
     stats.recorded = state.recorded;
     stats.commands = state.commands;

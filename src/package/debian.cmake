@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# `cpack -G DEB`: libwelkin0, libwelkin-dev and welkin-tools; `cpack -G TGZ`: one archive of all.
+# `cpack -G DEB`: libwelkin1, libwelkin-dev and welkin-tools; `cpack -G TGZ`: one archive of all.
 set(runtime_package libwelkin${PROJECT_VERSION_MAJOR})
 set(development_package libwelkin-dev)
 set(tools_package welkin-tools)

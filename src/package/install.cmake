@@ -25,16 +25,11 @@ if(archive)
           COMPONENT development)
 endif()
 
-# Before 1.0 a minor version may change the API.
-set(compatibility SameMajorVersion)
-if(PROJECT_VERSION_MAJOR EQUAL 0)
-  set(compatibility SameMinorVersion)
-endif()
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/welkin-config.cmake.in
                               ${CMAKE_CURRENT_BINARY_DIR}/welkin-config.cmake
                               INSTALL_DESTINATION ${cmake_dir} NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/welkin-config-version.cmake
-                                 COMPATIBILITY ${compatibility})
+                                 COMPATIBILITY SameMajorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/welkin-config.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/welkin-config-version.cmake
         DESTINATION ${cmake_dir} COMPONENT development)

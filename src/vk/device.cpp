@@ -82,12 +82,12 @@ void Buffer::swap(Buffer& other) noexcept {
 }
 
 VkImageView createView(const Device& device, VkImage image, VkFormat format, VkImageViewType type,
-                       VkImageAspectFlags aspect, uint32_t layers, uint32_t levels) {
+                       const VkImageSubresourceRange& range) {
   VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
   info.image = image;
   info.viewType = type;
   info.format = format;
-  info.subresourceRange = {aspect, 0, levels, 0, layers};
+  info.subresourceRange = range;
   VkImageView view = VK_NULL_HANDLE;
   check(device.vk().CreateImageView(device.handle(), &info, nullptr, &view), "vkCreateImageView");
   return view;
@@ -117,8 +117,8 @@ Image::Image(Device& device, const ImageInfo& info) : device_(&device), info_(in
         info.type == VK_IMAGE_TYPE_3D
             ? VK_IMAGE_VIEW_TYPE_3D
             : (info.arrayView ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D);
-    view_ = createView(device, image_, info.format, type, VK_IMAGE_ASPECT_COLOR_BIT, info.layers,
-                       info.levels);
+    view_ = createView(device, image_, info.format, type,
+                       {VK_IMAGE_ASPECT_COLOR_BIT, 0, info.levels, 0, info.layers});
   } catch (...) {
     vk.DestroyImage(device.handle(), image_, nullptr);
     device.memory().release(allocation_);

@@ -19,7 +19,7 @@ struct DeviceInfo {
   VkDevice device = VK_NULL_HANDLE;
   VkPipelineCache pipelineCache = VK_NULL_HANDLE;
   uint32_t queueFamilyIndex = 0;
-  bool dualSrcBlend = false;
+  bool blend = false;  // dualSrcBlend and fragmentStoresAndAtomics are enabled
   bool headless = false;
   VkDeviceSize memoryLimit = 0;  // 0: none
 };
@@ -107,7 +107,12 @@ class Image {
   Allocation allocation_;
 };
 
+// Whether a device can draw WLK_COMPOSITE_BLEND.
+inline bool canBlend(const VkPhysicalDeviceFeatures& features) {
+  return features.dualSrcBlend == VK_TRUE && features.fragmentStoresAndAtomics == VK_TRUE;
+}
+
 VkImageView createView(const Device& device, VkImage image, VkFormat format, VkImageViewType type,
-                       VkImageAspectFlags aspect, uint32_t layers, uint32_t levels = 1);
+                       const VkImageSubresourceRange& range);
 
 }  // namespace welkin::vk

@@ -22,7 +22,13 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT 
   const auto* options = static_cast<const HeadlessOptions*>(user);
   if (options->log != nullptr) {
     const bool error = severity >= VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-    options->log(options->logUser, error ? WLK_LOG_ERROR : WLK_LOG_WARNING, data->pMessage);
+    const WlkLogMessage message{WLK_STRUCT_LOG_MESSAGE,
+                                sizeof(WlkLogMessage),
+                                nullptr,
+                                error ? uint32_t{WLK_LOG_ERROR} : uint32_t{WLK_LOG_WARNING},
+                                WLK_LOG_ID_VALIDATION,
+                                data->pMessage};
+    options->log(options->logUser, &message);
   }
   return VK_FALSE;
 }
@@ -168,8 +174,6 @@ void Headless::pickDevice(const HeadlessOptions& options) {
 }
 
 void Headless::createDevice() {
-  VkPhysicalDeviceFeatures available{};
-  load<PFN_vkGetPhysicalDeviceFeatures>("vkGetPhysicalDeviceFeatures")(physical_, &available);
   VkPhysicalDeviceVulkan13Features features13{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
   features13.synchronization2 = VK_TRUE;
@@ -177,8 +181,6 @@ void Headless::createDevice() {
   VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
   features.pNext = &features13;
   features.features.shaderStorageImageWriteWithoutFormat = VK_TRUE;
-  features.features.dualSrcBlend = available.dualSrcBlend;
-  dualSrcBlend_ = available.dualSrcBlend == VK_TRUE;
   const float priority = 1.0f;
   VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
   queue.queueFamilyIndex = family_;
@@ -199,7 +201,6 @@ DeviceInfo Headless::deviceInfo() const {
   info.physicalDevice = physical_;
   info.device = handle_;
   info.queueFamilyIndex = family_;
-  info.dualSrcBlend = dualSrcBlend_;
   info.headless = true;
   return info;
 }

@@ -51,7 +51,6 @@ class Headless {
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   VkDevice handle_ = VK_NULL_HANDLE;
   uint32_t family_ = 0;
-  bool dualSrcBlend_ = false;
   Dispatch vk_;
   VkQueue queue_ = VK_NULL_HANDLE;
   VkCommandPool pool_ = VK_NULL_HANDLE;

@@ -93,8 +93,10 @@ int main() {
   makeSetsTheHead<WlkErrorInfo, WlkContextInfo, WlkHeadlessInfo, WlkCapabilities, WlkPlanet, WlkSky,
                   WlkLight, WlkFog, WlkAbsorber, WlkAmbient, WlkMediumInfo, WlkMediumOptics,
                   WlkVolumeInfo, WlkVolumeUpload, WlkVolumeBricks, WlkVolumeState, WlkViewInfo,
-                  WlkCamera, WlkQuality, WlkQualityState, WlkFrameInfo, WlkHeadlessTargets,
+                  WlkCamera, WlkQuality, WlkQualityState, WlkFrameInfo, WlkHeadlessInputs,
                   WlkImageData, WlkFrameStats, WlkRayBatch, WlkPhaseQuery, WlkSkyMapQuery,
+                  WlkLogMessage, WlkLightShadow, WlkErrorEstimate, WlkSurfaceInfo, WlkSurfaceDetail,
+                  WlkAerialPerspective, WlkCloudShadowInfo, WlkCloudShadowState,
                   WlkVulkanDeviceInfo, WlkVulkanRequirements, WlkVulkanImage,
                   WlkVulkanViewTargets>();
   movesOnly<welkin::Context>();

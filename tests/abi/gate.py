@@ -1,18 +1,23 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Does the API keep the ABI of tests/abi/baseline? Prints what does not and exits 1.
+"""Does the API keep the ABI of every version in tests/abi/baseline? Prints what does not, exits 1.
 
-gate.py LIBRARY   the tree's headers and libwelkin.so against the baseline
-gate.py --freeze  writes the baseline from the tree. Before 1.0 that is how an intended break is
-                  taken in; from then on a baseline stays for as long as its major version lives.
+gate.py LIBRARY           the tree's headers and libwelkin.so against all baselines of its major
+                          version, baseline/MAJOR.MINOR: each stays as long as that lives
+gate.py --freeze LIBRARY  writes that of the tree's version: once, when it is released. Until then
+                          that is how an intended break is taken in. Those of other major versions
+                          go.
 
-Four checks, because each is blind somewhere:
+Six checks, because each is blind somewhere:
 - layout: offsets, values of enumerators and macros, as the baseline's compiler saw them (does not
   see types);
 - abidiff, and abi-compliance-checker: types and signatures (see neither macros nor enumerators
   without a type);
 - client: the baseline's C program, with the baseline's headers, run with the new library, which
-  must also know the sizes that structures had.
+  must also know the sizes that structures had;
+- defaults: what wlkInitStruct writes into the fields of that time;
+- nodes: functions keep the version node of the minor version that brought them, and none is added
+  to the node of a frozen one.
 The two tools compare libraries made from the headers alone, which hold every function's signature
 and every structure; exports.py has compared the headers with the true library's symbols.
 """
@@ -52,8 +57,9 @@ def run(*command, cwd=None):
 
 
 def text_of(include):
-    return generate.without_comments(
-        "".join((include / "welkin" / name).read_text() for name in generate.HEADERS))
+    """Of the headers that this version has."""
+    files = [include / "welkin" / name for name in generate.HEADERS]
+    return generate.without_comments("".join(file.read_text() for file in files if file.exists()))
 
 
 def frozen_layout(include):
@@ -131,27 +137,101 @@ def check_abicc(old, new, folder):
     return compared.stdout.splitlines() if compared.returncode else []
 
 
-def sizes_program():
+def struct_type(name):
+    return "WLK_STRUCT" + re.sub(r"([A-Z])", r"_\1", name.removeprefix("Wlk")).upper()
+
+
+def with_heads(include):
+    return [(name, fields) for name, fields in generate.structs(text_of(include))
+            if fields[:2] == ["sType", "structSize"]]
+
+
+def sizes_program(include):
     """A C program: does the library still fill structures of the baseline's sizes?"""
     lines = ["#include <stdio.h>", "#include <welkin/welkin_vulkan.h>", "static double room[8192];",
              "int main(void) {", "int failures = 0;"]
-    for name, fields in generate.structs(text_of(BASELINE)):
-        if fields[:2] == ["sType", "structSize"]:
-            kind = "WLK_STRUCT" + re.sub(r"([A-Z])", r"_\1", name.removeprefix("Wlk")).upper()
-            lines.append(f"if (wlkInitStruct({kind}, sizeof({name}), room) != WLK_SUCCESS) {{"
-                         f' fprintf(stderr, "{name} of %zu bytes is refused\\n", sizeof({name}));'
-                         " ++failures; }")
+    for name, _ in with_heads(include):
+        call = f"wlkInitStruct({struct_type(name)}, sizeof({name}), room)"
+        lines.append(f"if ({call} != WLK_SUCCESS) {{"
+                     f' fprintf(stderr, "{name} of %zu bytes is refused\\n", sizeof({name}));'
+                     " ++failures; }")
     return "\n".join([*lines, "return failures != 0; }"])
 
 
-def check_client(library, folder):
+PRINTERS = """
+static void bytes(const char* name, const void* p, unsigned size) {
+  const unsigned char* byte = p;
+  unsigned last = size, i;
+  while (last > 0 && byte[last - 1] == 0) --last;
+  printf("%s: %u bytes,", name, size);
+  for (i = 0; i < last; ++i) printf(" %02x", byte[i]);
+  puts(last == 0 ? " all 0" : "");
+}
+#define NUMBERS(kind, type, format) \\
+  static void kind(const char* name, const void* p, unsigned size) { \\
+    unsigned i; \\
+    printf("%s", name); \\
+    for (i = 0; i < size / sizeof(type); ++i) printf(" " format, ((const type*)p)[i]); \\
+    puts(""); \\
+  }
+NUMBERS(float_, float, "%.9g")
+NUMBERS(double_, double, "%.17g")
+NUMBERS(uint32_t_, uint32_t, "%u")
+NUMBERS(uint64_t_, unsigned long, "%lu")
+"""
+
+
+def defaults_program(include):
+    """A C program: every field that wlkInitStruct fills, with its value; bytes where it is no
+    number."""
+    bodies = dict(re.findall(r"typedef struct (\w+) \{(.*?)\} \1;", text_of(include), flags=re.S))
+    lines = ["#include <stdio.h>", "#include <string.h>", "#include <welkin/welkin_vulkan.h>",
+             PRINTERS, "int main(void) {"]
+    for name, fields in with_heads(include):
+        lines.append(f"{{ {name} s; memset(&s, 0xee, sizeof s);"
+                     f" wlkInitStruct({struct_type(name)}, sizeof s, &s);")
+        for field in fields:
+            number = re.search(rf"\b(float|double|uint32_t|uint64_t)\s+{field}\s*[;\[]",
+                               bodies[name])
+            printer = f"{number[1]}_" if number else "bytes"
+            lines.append(f'{printer}("{name}::{field}", &s.{field}, sizeof s.{field});')
+        lines.append("}")
+    return "\n".join([*lines, "return 0; }"])
+
+
+def defaults(include, library, folder):
+    """What the library writes into the structures of these headers, a field a line."""
+    source, program = folder / "defaults.c", folder / "defaults"
+    source.write_text(defaults_program(include))
+    built = run("gcc", "-std=c99", "-w", f"-I{include}", source, library,
+                f"-Wl,-rpath,{pathlib.Path(library).resolve().parent}", "-o", program)
+    return (built.stderr if built.returncode else run(program).stdout).splitlines()
+
+
+def check_defaults(baseline, library, folder):
+    frozen = (baseline / "defaults.txt").read_text().splitlines()
+    now = defaults(baseline, library, folder)
+    found = [f"was {line}" for line in frozen if line not in now]
+    return found + [f"is {line}" for line in now if line not in frozen]
+
+
+def check_nodes(baseline, symbols):
+    """Of the lists symbols.txt of then and now."""
+    then, now = (set(file.read_text().split()) for file in (baseline / "symbols.txt", symbols))
+    frozen = generate.node_order(baseline.name)
+    late = [line for line in now - then if generate.node_order(line.split("@@")[1]) <= frozen]
+    return [f"{line} is gone" for line in sorted(then - now)] + \
+        [f"{line} was added to a frozen node" for line in sorted(late)]
+
+
+def check_client(baseline, library, folder):
     """An old program: the baseline's consumer, and its structures' sizes."""
-    (folder / "sizes.c").write_text(sizes_program())
+    (folder / "sizes.c").write_text(sizes_program(baseline))
     found = []
-    for source in (BASELINE / "client.c", folder / "sizes.c"):
+    for source in (baseline / "client.c", folder / "sizes.c"):
         program = folder / source.stem
-        built = run("gcc", "-std=c99", "-w", f"-I{BASELINE}", source, library,
-                    f"-Wl,-rpath,{pathlib.Path(library).parent}", "-lm", "-o", program)
+        built = run("gcc", "-std=c99", "-w", f"-I{baseline}", source, library,
+                    f"-Wl,-rpath,{pathlib.Path(library).resolve().parent}", "-lm", "-o", program)
         ran = built if built.returncode else run(program)
         if ran.returncode:
             found += [f"{source.name}: {line}" for line in
@@ -172,32 +252,60 @@ def breaks(old, new, folder):
     return {check: lines for check, lines in found.items() if lines}
 
 
-def freeze():
-    shutil.rmtree(BASELINE, ignore_errors=True)
-    (BASELINE / "welkin").mkdir(parents=True)
+def baselines(root, major):
+    """The frozen versions of this major version, the oldest first."""
+    return sorted(root.glob(f"{major}.*"), key=lambda folder: generate.node_order(folder.name))
+
+
+def all_breaks(root, major, include, library, symbols):
+    """{"MAJOR.MINOR check": findings} of headers and library against every baseline."""
+    found = {}
+    for baseline in baselines(root, major):
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = pathlib.Path(temporary)
+            checks = breaks(baseline, include, folder)
+            if library:
+                checks["client"] = check_client(baseline, library, folder)
+                checks["defaults"] = check_defaults(baseline, library, folder)
+            checks["nodes"] = check_nodes(baseline, symbols)
+        found |= {f"{baseline.name} {check}": lines for check, lines in checks.items() if lines}
+    return found
+
+
+def freeze(library):
+    major, minor = generate.version()
+    for other in BASELINE.iterdir() if BASELINE.exists() else ():
+        if not other.name.startswith(f"{major}."):
+            shutil.rmtree(other) if other.is_dir() else other.unlink()
+    target = BASELINE / f"{major}.{minor}"
+    shutil.rmtree(target, ignore_errors=True)
+    (target / "welkin").mkdir(parents=True)
     for header in sorted((INCLUDE / "welkin").glob("*.h")):
-        shutil.copy(header, BASELINE / "welkin" / header.name)
-    shutil.copy(HERE / "c_consumer.c", BASELINE / "client.c")
+        shutil.copy(header, target / "welkin" / header.name)
+    shutil.copy(HERE / "c_consumer.c", target / "client.c")
+    shutil.copy(HERE / "symbols.txt", target / "symbols.txt")
+    with tempfile.TemporaryDirectory() as temporary:
+        lines = defaults(target, library, pathlib.Path(temporary))
+    (target / "defaults.txt").write_text("\n".join(lines) + "\n")
 
 
 def main():
-    if sys.argv[1:] == ["--freeze"]:
-        freeze()
+    if sys.argv[1] == "--freeze":
+        freeze(sys.argv[2])
         return 0
     library, = sys.argv[1:]
-    with tempfile.TemporaryDirectory() as temporary:
-        folder = pathlib.Path(temporary)
-        try:
-            found = breaks(BASELINE, INCLUDE, folder)
-            client = check_client(library, folder)
-        except Missing as error:
-            sys.exit(str(error))
-    if client:
-        found["client"] = client
+    major, minor = generate.version()
+    if not baselines(BASELINE, major):
+        sys.exit(f"no baseline of version {major}")
+    try:
+        found = all_breaks(BASELINE, major, INCLUDE, library, HERE / "symbols.txt")
+    except Missing as error:
+        sys.exit(str(error))
     for check, lines in found.items():
         print("\n".join(f"{check}: {line}" for line in lines))
-    print("the ABI of the baseline is broken; if that is intended, and before 1.0: gate.py --freeze"
-          if found else "the ABI of the baseline holds")
+    print("the ABI of a baseline is broken; if that is intended, and the tree's version "
+          f"{major}.{minor} is not released: gate.py --freeze" if found else
+          "the ABI of the baselines holds")
     return 1 if found else 0
 
 

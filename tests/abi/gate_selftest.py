@@ -153,11 +153,11 @@ def verdict(case):
 
 # Libraries: (what, C text, linker's version script, more arguments, a word of the finding).
 PLAIN = "int wlkToy(void) { return 1; }\nint inside(void) { return 2; }\n"
-NODE = "WELKIN_0.1 { global: wlk*; local: *; };\n"
+NODE = "WELKIN_1.0 { global: wlk*; local: *; };\n"
 LIBRARIES = [
     ("the library as it is", PLAIN, NODE, [], ""),
     ("a function is gone", "int inside(void) { return 2; }\n", NODE, [], "not exported"),
-    ("another node", PLAIN, NODE.replace("0.1", "0.2"), [], "not exported: wlkToy@@WELKIN_0.1"),
+    ("another node", PLAIN, NODE.replace("1.0", "1.1"), [], "not exported: wlkToy@@WELKIN_1.0"),
     ("internals are exported", PLAIN, NODE.replace("wlk*;", "wlk*; inside;"), [], "not listed"),
     ("Vulkan is taken from the process", "int vkToy(void);\nint wlkToy(void) { return vkToy(); }\n",
      NODE, [], "symbol of Vulkan"),
@@ -176,21 +176,145 @@ def library_verdict(case):
         (folder / "toy.map").write_text(node)
         subprocess.run(["gcc", "-w", "-shared", "-fPIC", folder / "toy.c", "-o", folder / "toy.so",
                         f"-Wl,--version-script={folder / 'toy.map'}", *arguments], check=True)
-        found = list(exports.findings(folder / "toy.so", {"wlkToy@@WELKIN_0.1"}))
+        found = list(exports.findings(folder / "toy.so", {"wlkToy@@WELKIN_1.0"}))
     if not word:
         return f"{what}: {found}" if found else None
     return None if any(word in line for line in found) else f"{what}: not seen, but {found}"
 
 
+
+# What wlkInitStruct writes: (what, text of BOX or FILL, what replaces it, is it a break).
+BOX = """
+enum { WLK_STRUCT_TOY_BOX = 1 };
+typedef struct WlkToyBox {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  float scale[2];
+  uint32_t mode;
+  uint32_t reserved0;
+  const void* data;
+} WlkToyBox;
+WLK_API WlkResult wlkInitStruct(uint32_t sType, uint32_t structSize, void* structure);
+"""
+FILL = """
+#include <string.h>
+#include <welkin/core.h>
+WlkResult wlkInitStruct(uint32_t sType, uint32_t structSize, void* structure) {
+  WlkToyBox box = {1, structSize, 0, {1.0f, 0.3f}, 7};
+  memcpy(structure, &box, structSize < sizeof box ? structSize : sizeof box);
+  return 0;
+}
+"""
+DEFAULTS = [
+    ("defaults as they were", "", "", False),
+    ("a field more", "const void* data;", "const void* data;\n  double late;", False),
+    ("the last digit of a default", "0.3f", "0.30000004f", True),
+    ("another mode", ", 7}", ", 8}", True),
+    ("a pointer that was null", ", 7}", ", 7, 0, structure}", True),
+    ("reserved room that is not 0", ", 7}", ", 7, 1}", True),
+]
+
+
+def defaults_verdict(case):
+    what, old, new, breaks = case
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = pathlib.Path(temporary)
+        libraries = []
+        for name in ("old", "new"):
+            change = (old, new) if name == "new" and old else ("", "")
+            include = write_headers(folder / name, BOX.replace(*change, 1))
+            (include / "fill.c").write_text(FILL.replace(*change, 1))
+            libraries.append(include / "libtoy.so")
+            subprocess.run(["gcc", "-w", "-shared", "-fPIC", f"-I{include}", include / "fill.c",
+                            "-o", libraries[-1]], check=True)
+        baseline = folder / "old"
+        lines = gate.defaults(baseline, libraries[0], folder)
+        (baseline / "defaults.txt").write_text("\n".join(lines) + "\n")
+        if not any(line.startswith("WlkToyBox::scale 1 0.3") for line in lines):
+            return f"defaults are not listed, but {lines}"
+        found = gate.check_defaults(baseline, libraries[1], folder)
+    return f"{what}: {found or 'not seen'}" if bool(found) != breaks else None
+
+
+# Lists of symbols: (what, then, now, a word of the finding).
+THEN = "wlkA@@WELKIN_1.0\nwlkB@@WELKIN_1.0\n"
+NODES = [
+    ("the list as it was", THEN, ""),
+    ("a function in a new node", THEN + "wlkC@@WELKIN_1.1\n", ""),
+    ("a function in a frozen node", THEN + "wlkC@@WELKIN_1.0\n", "wlkC@@WELKIN_1.0 was added"),
+    ("a function in another node", THEN.replace("wlkB@@WELKIN_1.0", "wlkB@@WELKIN_1.1"),
+     "wlkB@@WELKIN_1.0 is gone"),
+]
+
+
+def nodes_verdict(case):
+    what, now, word = case
+    with tempfile.TemporaryDirectory() as temporary:
+        baseline = pathlib.Path(temporary) / "1.0"
+        baseline.mkdir()
+        (baseline / "symbols.txt").write_text(THEN)
+        (baseline / "now.txt").write_text(now)
+        found = gate.check_nodes(baseline, baseline / "now.txt")
+    seen = any(word in line for line in found) if word else not found
+    return None if seen else f"{what}: {found or 'not seen'}"
+
+
+def written_nodes():
+    """generate.py keeps old nodes, gives new functions the new one, and ld takes what it writes."""
+    node_of = gate.generate.nodes(["wlkA", "wlkNew"], THEN, (1, 1))
+    if node_of != {"wlkA": "WELKIN_1.0", "wlkNew": "WELKIN_1.1"}:
+        return f"nodes of a minor version: {node_of}"
+    if gate.generate.nodes(["wlkA"], THEN, (2, 0)) != {"wlkA": "WELKIN_2.0"}:
+        return "a major version keeps nodes of the last"
+    text = "int wlkA(void) { return 1; }\nint wlkNew(void) { return 2; }\n"
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = pathlib.Path(temporary)
+        (folder / "toy.c").write_text(text)
+        (folder / "toy.map").write_text(gate.generate.version_script(node_of))
+        subprocess.run(["gcc", "-w", "-shared", "-fPIC", folder / "toy.c", "-o", folder / "toy.so",
+                        f"-Wl,--version-script={folder / 'toy.map'}"], check=True)
+        found = list(exports.findings(folder / "toy.so",
+                                      {"wlkA@@WELKIN_1.0", "wlkNew@@WELKIN_1.1"}))
+    return f"the version script: {found}" if found else None
+
+
+def every_baseline():
+    """What 1.1 added is held fast in 1.2, though 1.0 knows nothing of it; other majors are not."""
+    grown = TOY.replace("uint32_t last;\n", "uint32_t last;\n  float a;\n  float b;\n")
+    exchanged = grown.replace("  float a;\n  float b;\n", "  float b;\n  float a;\n")
+    with tempfile.TemporaryDirectory() as temporary:
+        root = pathlib.Path(temporary)
+        for version, text in (("1.0", TOY), ("1.1", grown), ("0.9", ""), ("1.10", grown)):
+            write_headers(root / version, text)
+            (root / version / "symbols.txt").write_text("")
+        (root / "symbols.txt").write_text("")
+        names = [folder.name for folder in gate.baselines(root, 1)]
+        good = gate.all_breaks(root, 1, write_headers(root / "good", grown), None,
+                               root / "symbols.txt")
+        bad = gate.all_breaks(root, 1, write_headers(root / "bad", exchanged), None,
+                              root / "symbols.txt")
+    if names != ["1.0", "1.1", "1.10"]:
+        return f"baselines of version 1 are {names}"
+    if good:
+        return f"1.1 breaks itself: {good}"
+    return None if {"1.1 layout", "1.10 layout"} <= set(bad) and "1.0 layout" not in bad else \
+        f"a field of 1.1 was moved: {sorted(bad)}"
+
+
 def main():
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         try:
-            wrong = [*pool.map(verdict, HARMLESS + BREAKS), *pool.map(library_verdict, LIBRARIES)]
+            wrong = [*pool.map(verdict, HARMLESS + BREAKS),
+                     *pool.map(library_verdict, LIBRARIES),
+                     *pool.map(defaults_verdict, DEFAULTS), *pool.map(nodes_verdict, NODES),
+                     written_nodes(), every_baseline()]
         except gate.Missing as error:
             sys.exit(str(error))
     wrong = [line for line in wrong if line]
     print("\n".join(wrong) if wrong else
-          f"{len(BREAKS) + len(LIBRARIES) - 1} breaks seen, {len(HARMLESS) + 1} changes passed")
+          f"{len(BREAKS) + len(LIBRARIES) + len(DEFAULTS) + len(NODES) - 3} breaks seen, "
+          f"{len(HARMLESS) + 5} changes passed")
     return 1 if wrong else 0
 
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes symbols.txt, fixed.txt and layout_test.c from the public headers; --check compares.
+"""Writes symbols.txt, fixed.txt, layout_test.c and src/welkin.map from the public headers; --check
+compares.
 
 Run it after an intended change of the API; the diff of these files is then the ABI change to
 review. The offsets come from the compiler, so x86-64 Linux with gcc is needed.
@@ -14,8 +15,9 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 INCLUDE = HERE.parent.parent / "include"
-HEADERS = ("core.h", "scene.h", "surface.h", "view.h", "query.h", "welkin_vulkan.h")
-NODE = "WELKIN_0.1"
+HEADERS = ("core.h", "scene.h", "surface.h", "view.h", "output.h", "statistics.h", "query.h",
+           "welkin_vulkan.h")
+MAP = HERE.parent.parent / "src" / "welkin.map"
 
 BANNER = """/* SPDX-License-Identifier: MIT
  *
@@ -32,6 +34,37 @@ BANNER = """/* SPDX-License-Identifier: MIT
 #define HEAD(type) _Static_assert(STARTS(type) && offsetof(type, next) == 8, "head of " #type)
 #define VALUE(name, value) _Static_assert((long long)(name) == (value), #name)
 """
+
+
+def version(include=INCLUDE):
+    """(major, minor) of the headers."""
+    text = (include / "welkin" / "core.h").read_text()
+    return tuple(int(re.search(rf"#define WLK_VERSION_{part} (\d+)", text)[1])
+                 for part in ("MAJOR", "MINOR"))
+
+
+def node_order(node):
+    return tuple(int(number) for number in node.removeprefix("WELKIN_").split("."))
+
+
+def nodes(names, listed, now):
+    """{function: version node}. A function keeps the node of the minor version that brought it: a
+    program that uses it must not start with an older library. New ones get that of `now`."""
+    known = dict(line.split("@@") for line in listed.split())
+    fresh = "WELKIN_%d.%d" % now
+    return {name: known[name] if name in known and node_order(known[name])[0] == now[0] else fresh
+            for name in sorted(names)}
+
+
+def version_script(node_of):
+    """Every function by its name, so that none gets into a node by a pattern."""
+    text, before = "", ""
+    for node in sorted(set(node_of.values()), key=node_order):
+        names = "".join(f"    {name};\n" for name in node_of if node_of[name] == node)
+        rest = "" if before else "  local: *;\n"
+        text += f"{node} {{\n  global:\n{names}{rest}}}{before};\n"
+        before = f" {node}"
+    return text
 
 
 def without_comments(text):
@@ -126,17 +159,19 @@ def main():
     parser.add_argument("--check", action="store_true", help="write nothing, fail on a difference")
     check = parser.parse_args().check
     text = without_comments("".join((INCLUDE / "welkin" / h).read_text() for h in HEADERS))
-    names = sorted(functions(text))
-    outputs = {"symbols.txt": "".join(f"{name}@@{NODE}\n" for name in names),
-               "fixed.txt": "".join(fixed(text)), "layout_test.c": BANNER + layout(text)}
+    symbols = HERE / "symbols.txt"
+    listed = symbols.read_text() if symbols.exists() else ""
+    node_of = nodes(functions(text), listed, version())
+    outputs = {symbols: "".join(f"{name}@@{node}\n" for name, node in node_of.items()),
+               MAP: version_script(node_of), HERE / "fixed.txt": "".join(fixed(text)),
+               HERE / "layout_test.c": BANNER + layout(text)}
     failed = 0
-    for name, content in outputs.items():
-        path = HERE / name
+    for path, content in outputs.items():
         if not check:
             path.write_text(content)
         elif not path.exists() or path.read_text() != content:
-            print(f"{name} does not describe the headers: if the change of the API is intended, "
-                  "run tests/abi/generate.py and review the difference")
+            print(f"{path.name} does not describe the headers: if the change of the API is "
+                  "intended, run tests/abi/generate.py and review the difference")
             failed = 1
     return failed
 

@@ -12,7 +12,7 @@
 
 typedef struct Welkin {
   WlkResult (*init)(uint32_t, uint32_t, void*);
-  WlkResult (*create)(const WlkContextInfo*, WlkContext*);
+  WlkResult (*create)(uint32_t, const WlkContextInfo*, WlkContext*);
   void (*destroy)(WlkContext);
   WlkResult (*createMedium)(WlkContext, const WlkMediumInfo*, WlkMedium*);
   WlkResult (*lastError)(WlkErrorInfo*);
@@ -58,7 +58,8 @@ static void use(const Welkin* welkin) {
   WlkContext context = NULL;
   WlkMedium medium = {0};
   welkin->init(WLK_STRUCT_CONTEXT_INFO, sizeof contextInfo, &contextInfo);
-  require(welkin->create(&contextInfo, &context) == WLK_SUCCESS, "a context is created");
+  require(welkin->create(WLK_API_VERSION, &contextInfo, &context) == WLK_SUCCESS,
+          "a context is created");
   welkin->init(WLK_STRUCT_MEDIUM_INFO, sizeof mediumInfo, &mediumInfo);
   mediumInfo.particle = WLK_PARTICLE_HENYEY_GREENSTEIN;
   require(welkin->createMedium(context, &mediumInfo, &medium) == WLK_SUCCESS,

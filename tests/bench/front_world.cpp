@@ -36,9 +36,11 @@ void World::prepare() {
 }
 
 void World::render(WlkView view, const host::RasterResult& opaque) {
-  auto targets = host::make<WlkHeadlessTargets>();
+  auto targets = host::make<WlkHeadlessInputs>();
   targets.color = opaque.color.rgba.empty() ? nullptr : opaque.color.rgba.data();
+  targets.colorSize = opaque.color.rgba.size() * sizeof(float);
   targets.depth = opaque.depth.values.empty() ? nullptr : opaque.depth.values.data();
+  targets.depthSize = opaque.depth.values.size() * sizeof(float);
   host::check(wlkRenderHeadless(context_.get(), view, &targets), scene_.file, "");
 }
 

@@ -40,6 +40,7 @@ support::DeviceOptions options(bool validation) {
   result.features13.dynamicRendering = VK_TRUE;
   result.features.shaderStorageImageWriteWithoutFormat = VK_TRUE;
   result.features.dualSrcBlend = needs.dualSrcBlend;
+  result.features.fragmentStoresAndAtomics = needs.fragmentStoresAndAtomics;
   return result;
 }
 
@@ -89,7 +90,7 @@ WlkVulkanDeviceInfo Gpu::info() const {
   info.device = handle();
   info.apiVersion = VK_API_VERSION_1_3;
   info.queueFamilyIndex = device_.family();
-  info.dualSrcBlendEnabled = requirements().dualSrcBlend;
+  info.enabledFeatures = WLK_VULKAN_FEATURE_BLEND;
   return info;
 }
 

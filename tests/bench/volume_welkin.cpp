@@ -62,7 +62,7 @@ WelkinVolume::WelkinVolume(Gpu& gpu, const GpuImage& target, const Cloud* cloud,
     auto quality = welkin::make<WlkQuality>();
     quality.sliceCount = options.slices;
     quality.lightBufferSize = options.lightSize;
-    quality.flags = options.fresh ? WLK_QUALITY_NO_SKIP : 0;
+    quality.flags = options.fresh ? WLK_QUALITY_FLAG_NO_SKIP : 0;
     quality.volumeResolution =
         options.half ? WLK_VOLUME_RESOLUTION_HALF : WLK_VOLUME_RESOLUTION_FULL;
     quality.scattering = options.underSky ? WLK_SCATTERING_DEFAULT : WLK_SCATTERING_SINGLE;

@@ -81,7 +81,7 @@ TEST_F(AerialBudget, CostsNothingUnlessItIsAskedFor) {
   EXPECT_EQ(line().recorded, 0u);
   EXPECT_STREQ(wlkReasonName(line().reason), "WLK_REASON_LAYER_OFF");
   // The same as of a view that never had any.
-  check(wlkVulkanSetAerialPerspective(s.scene.context, s.scene.view, nullptr));
+  check(wlkSetAerialPerspective(s.scene.context, s.scene.view, nullptr));
   const FrameCounts never = steady();
   EXPECT_EQ(std::memcmp(&never.view, &without.view, sizeof never.view), 0);
   for (const WlkPassStats& pass : s.scene.passes()) {
@@ -126,7 +126,7 @@ TEST_F(AerialBudget, VolumesAreMarchedInTheSlicesThatTheyReach) {
   // Out of reach: nothing is marched for froxels.
   auto nearby = info();
   nearby.distance = 4000;
-  check(wlkVulkanSetAerialPerspective(s.scene.context, s.scene.view, &nearby));
+  check(wlkSetAerialPerspective(s.scene.context, s.scene.view, &nearby));
   const FrameCounts before = steady();
   EXPECT_EQ(before.view.dispatches, without.view.dispatches + 1);
   EXPECT_EQ(line().invocations, froxels);

@@ -34,7 +34,7 @@ class LightShadowBudget : public ::testing::Test {
     scene.setSky();
     scene.setCamera({0, 2, 0}, 0, 12);
     scene.setSun(30, 20);
-    scene.setQuality(WLK_QUALITY_LOW, WLK_QUALITY_LIGHT_SHADOWS);
+    scene.setQuality(WLK_QUALITY_LOW, WLK_QUALITY_FLAG_LIGHT_SHADOWS);
     check(wlkPrepare(scene.context));
   }
   ~LightShadowBudget() override {
@@ -68,7 +68,7 @@ class LightShadowBudget : public ::testing::Test {
 TEST_F(LightShadowBudget, NothingWhereNoneIsGiven) {
   std::array<uint64_t, 3> first{};
   Image picture;
-  for (const uint64_t flags : {uint64_t{WLK_QUALITY_LIGHT_SHADOWS}, uint64_t{0}}) {
+  for (const uint64_t flags : {uint64_t{WLK_QUALITY_FLAG_LIGHT_SHADOWS}, uint64_t{0}}) {
     scene.setQuality(WLK_QUALITY_LOW, flags);
     check(wlkPrepare(scene.context));
     const VulkanCounts fresh = scene.renderFrame().view;

@@ -107,7 +107,7 @@ TEST_F(LightSharing, OtherCellsAreOtherLight) {
 }
 
 TEST_F(LightSharing, SkipsNothingWhereAskedNotTo) {
-  choose(second, WLK_QUALITY_LOW, WLK_QUALITY_NO_SKIP);
+  choose(second, WLK_QUALITY_LOW, WLK_QUALITY_FLAG_NO_SKIP);
   const Image alone = show(second);
   show(first);
   EXPECT_TRUE(show(second) == alone);

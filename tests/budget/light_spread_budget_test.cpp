@@ -247,7 +247,7 @@ TEST(LightSpread, OfAnImageOfTheEnginesIsRenewedAllTheTime) {
 }
 
 TEST(LightSpread, WithoutSkippingNothingIsSpread) {
-  Scene scene(FRAMES, {}, WLK_QUALITY_NO_SKIP);
+  Scene scene(FRAMES, {}, WLK_QUALITY_FLAG_NO_SKIP);
   fill(scene, scene.addBall(0.01f));
   check(wlkPrepare(scene.context));
   scene.frame();

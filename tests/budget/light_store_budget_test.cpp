@@ -94,7 +94,7 @@ TEST_F(LightStoreBudget, ComputesAnewWhatSunFieldsOrQualityHaveChanged) {
   ask(quality);
   expectComputed("more slabs");
   expectKept("nothing");
-  quality.flags = WLK_QUALITY_VOLUME_SHADOWS;
+  quality.flags = WLK_QUALITY_FLAG_VOLUME_SHADOWS;
   ask(quality);
   expectKept("what the volumes' light does not depend on");
 }
@@ -108,7 +108,7 @@ TEST_F(LightStoreBudget, InputsThatToggleGiveThePictureOfLightComputedEachFrame)
   EngineScene other(small());
   other.setCamera({0, 2, 0}, 0, 12);
   const WlkVolume twin = other.addBall(0.01f);
-  other.setQuality(WLK_QUALITY_LOW, WLK_QUALITY_NO_SKIP);
+  other.setQuality(WLK_QUALITY_LOW, WLK_QUALITY_FLAG_NO_SKIP);
   check(wlkPrepare(other.context));
   for (int i = 0; i < 16; ++i) {
     for (EngineScene* each : {&scene, &other}) {
@@ -133,7 +133,7 @@ TEST_F(LightStoreBudget, WithoutSkippingIsComputedEachFrame) {
   const Image computed = scene.read();
   expectKept("nothing");
   EXPECT_TRUE(scene.read() == computed);
-  scene.setQuality(WLK_QUALITY_LOW, WLK_QUALITY_NO_SKIP);
+  scene.setQuality(WLK_QUALITY_LOW, WLK_QUALITY_FLAG_NO_SKIP);
   prepare();
   for (int i = 0; i < 2; ++i) {
     expect(WLK_REASON_NO_SKIP_FLAG, 1, "no skipping");

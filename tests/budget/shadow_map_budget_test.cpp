@@ -18,8 +18,8 @@ constexpr uint32_t FRAME = 1;  // the pass that writes the image
 // Into the image's state and out of it, the sums cleared, and after each volume.
 constexpr uint64_t BARRIERS = 4;
 
-WlkShadowMapInfo info() {
-  auto value = make<WlkShadowMapInfo>();
+WlkCloudShadowInfo info() {
+  auto value = make<WlkCloudShadowInfo>();
   value.width = SIZE;
   value.height = SIZE;
   value.extent[0] = value.extent[1] = 3000;
@@ -93,7 +93,7 @@ TEST_F(ShadowMapBudget, KeepsWhatHasNotChanged) {
   EXPECT_GT(kept.state.gpuTime_ns, 0u);
   auto moved = info();
   moved.center[0] = 2;  // of texels of 125 m
-  check(wlkVulkanSetShadowMap(s.scene.context, s.map, &moved));
+  check(wlkSetCloudShadow(s.scene.context, s.map, &moved));
   expectKept("the middle moved within its texel");
 }
 
@@ -113,10 +113,10 @@ TEST_F(ShadowMapBudget, RecordsWhatLightVolumesAreaOrImageHaveChanged) {
   expectKept("nothing");
   auto value = info();
   value.center[0] = 300;
-  check(wlkVulkanSetShadowMap(s.scene.context, s.map, &value));
+  check(wlkSetCloudShadow(s.scene.context, s.map, &value));
   expectRecorded(WLK_REASON_NEEDED, 1, "the middle moved");
   value.maxSamples = 8;
-  check(wlkVulkanSetShadowMap(s.scene.context, s.map, &value));
+  check(wlkSetCloudShadow(s.scene.context, s.map, &value));
   expectRecorded(WLK_REASON_NEEDED, 1, "fewer samples");
   expectKept("nothing");
   const std::vector<float> before = s.read();
@@ -127,8 +127,8 @@ TEST_F(ShadowMapBudget, RecordsWhatLightVolumesAreaOrImageHaveChanged) {
   expectRecorded(WLK_REASON_NEEDED, 1, "its contents are gone");
   EXPECT_EQ(s.read(), before);
   // A map of its own, which was never skipped, has the same texels.
-  check(wlkVulkanDestroyShadowMap(s.scene.context, s.map));
-  check(wlkVulkanCreateShadowMap(s.scene.context, &value, &s.map));
+  check(wlkDestroyCloudShadow(s.scene.context, s.map));
+  check(wlkCreateCloudShadow(s.scene.context, &value, &s.map));
   prepare();
   expectRecorded(WLK_REASON_NEEDED, 1, "another map");
   EXPECT_EQ(s.read(), before);

@@ -76,7 +76,7 @@ class Skip : public ::testing::Test {
   // zeros, and multiplies by exact ones.
   void expectSameWithoutSkipping() {
     const Image skipped = scene.read();
-    scene.setQuality(WLK_QUALITY_LOW, WLK_QUALITY_NO_SKIP);
+    scene.setQuality(WLK_QUALITY_LOW, WLK_QUALITY_FLAG_NO_SKIP);
     const FrameCounts counts = render();
     EXPECT_GE(counts.view.dispatches, COMPOSITE_ONLY);
     const Image full = scene.read();

@@ -36,7 +36,7 @@ class Toggled : public ::testing::TestWithParam<Kind> {
     scene.setSky();
     scene.setSun(30, 20);
     scene.setCamera({0, 2, 0}, 0, 12);
-    if (GetParam().pass == WLK_PASS_SHADOW_MAP) {
+    if (GetParam().pass == WLK_PASS_CLOUD_SHADOW) {
       scene.setFog(1e-4f, 2000);  // what the volume shades is seen
     }
     volumes_.push_back(scene.addBall(0.01f));
@@ -57,7 +57,7 @@ class Toggled : public ::testing::TestWithParam<Kind> {
   static void renewView(EngineScene& scene) {
     check(wlkDestroyView(scene.context, scene.view));
     scene.view = scene.addView(small());
-    setQuality(scene, WLK_QUALITY_NO_SKIP);
+    setQuality(scene, WLK_QUALITY_FLAG_NO_SKIP);
     check(wlkPrepare(scene.context));
   }
   static void setAmbient(const EngineScene& scene, float sky) {
@@ -95,10 +95,10 @@ TEST_P(Toggled, EachFrameIsThatOfASceneThatSkipsNothing) {
   EngineScene kept(small());
   EngineScene full(small());
   build(kept, 0);
-  build(full, WLK_QUALITY_NO_SKIP);
+  build(full, WLK_QUALITY_FLAG_NO_SKIP);
   int recorded = 0;
   for (int i = 0; i < FRAMES; ++i) {
-    if (GetParam().pass == WLK_PASS_SHADOW_MAP) {
+    if (GetParam().pass == WLK_PASS_CLOUD_SHADOW) {
       renewView(full);
     }
     show(kept, 0, i);
@@ -120,9 +120,9 @@ INSTANTIATE_TEST_SUITE_P(All, Toggled,
                                                 WLK_SCATTERING_ALL_ORDERS, 0, false},
                                            Kind{"AmbientLight", WLK_PASS_VOLUME_AMBIENT,
                                                 WLK_SCATTERING_ALL_ORDERS, 0, true},
-                                           Kind{"ViewShadow", WLK_PASS_SHADOW_MAP,
-                                                WLK_SCATTERING_FORWARD, WLK_QUALITY_VOLUME_SHADOWS,
-                                                false}),
+                                           Kind{"ViewShadow", WLK_PASS_CLOUD_SHADOW,
+                                                WLK_SCATTERING_FORWARD,
+                                                WLK_QUALITY_FLAG_VOLUME_SHADOWS, false}),
                          [](const ::testing::TestParamInfo<Kind>& one) { return one.param.name; });
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The map by which volumes shade the air is recorded where light or volumes have changed, and
-// nowhere else; without WLK_QUALITY_VOLUME_SHADOWS there is none.
+// nowhere else; without WLK_QUALITY_FLAG_VOLUME_SHADOWS there is none.
 #include <gtest/gtest.h>
 
 #include "support/engine_scene.hpp"
@@ -24,7 +24,7 @@ class ViewShadowBudget : public ::testing::Test {
     scene.setSky();
     scene.setCamera({0, 2, 0}, 0, 12);
     scene.setSun(30, 20);
-    scene.setQuality(WLK_QUALITY_LOW, WLK_QUALITY_VOLUME_SHADOWS);
+    scene.setQuality(WLK_QUALITY_LOW, WLK_QUALITY_FLAG_VOLUME_SHADOWS);
   }
   ~ViewShadowBudget() override {
     EXPECT_TRUE(scene.device().messages().empty()) << scene.device().messages().front();
@@ -38,8 +38,8 @@ class ViewShadowBudget : public ::testing::Test {
     EXPECT_EQ(scene.stats().nonFinitePixels, 0u);
     WlkPassStats found{};
     for (const WlkPassStats& pass : scene.passes()) {
-      if (pass.pass == WLK_PASS_SHADOW_MAP) {
-        EXPECT_STREQ(pass.name, "shadow map");
+      if (pass.pass == WLK_PASS_CLOUD_SHADOW) {
+        EXPECT_STREQ(pass.name, "cloud shadow");
         found = pass;
       }
     }
@@ -47,7 +47,7 @@ class ViewShadowBudget : public ::testing::Test {
   }
   void expectPass(uint32_t reason, uint32_t commands, const char* after) {
     const WlkPassStats pass = render();
-    EXPECT_EQ(pass.pass, uint32_t{WLK_PASS_SHADOW_MAP}) << after;
+    EXPECT_EQ(pass.pass, uint32_t{WLK_PASS_CLOUD_SHADOW}) << after;
     EXPECT_STREQ(wlkReasonName(pass.reason), wlkReasonName(reason)) << after;
     EXPECT_EQ(pass.commands, commands) << after;
     EXPECT_EQ(pass.recorded, commands > 0 ? 1u : 0u) << after;

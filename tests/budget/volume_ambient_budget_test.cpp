@@ -126,7 +126,7 @@ TEST_F(VolumeAmbientBudget, WithoutSkippingComputesEachFrameTheSamePicture) {
   const Image computed = scene.read();
   expectKept("nothing");
   EXPECT_TRUE(scene.read() == computed);
-  scene.setQuality(WLK_QUALITY_LOW, WLK_QUALITY_NO_SKIP);
+  scene.setQuality(WLK_QUALITY_LOW, WLK_QUALITY_FLAG_NO_SKIP);
   prepare();
   for (int i = 0; i < 2; ++i) {
     render();

@@ -180,7 +180,7 @@ TEST_F(VolumeLightBudget, WithoutSkippingComputesEachFrameTheSamePicture) {
   const Image computed = scene.read();
   expectKept("nothing");
   expectSame(scene.read(), computed, "kept");
-  setQuality(WLK_QUALITY_NO_SKIP);
+  setQuality(WLK_QUALITY_FLAG_NO_SKIP);
   prepare();
   for (int i = 0; i < 2; ++i) {
     render();

@@ -27,12 +27,12 @@ C_HEAD = """#include <stdio.h>
 #include <welkin/welkin_vulkan.h>
 typedef struct Cascade { float clipFromWorld[16]; } Cascade;
 void piece(WlkContext context, WlkView view, VkCommandBuffer commands, const double* eye,
-           const float* toSun, const float* toMoon, WlkShadowMap map, WlkShadowMapState state,
+           const float* toSun, const float* toMoon, WlkCloudShadow map, WlkCloudShadowState state,
            WlkVulkanImage image, WlkVulkanImage shadowImage, WlkVulkanImage radiance,
            WlkVulkanImage transmittance, float (*rows)[4], WlkQuality quality, WlkCamera camera,
            const Cascade* cascade, WlkVulkanViewTargets targets);
 void piece(WlkContext context, WlkView view, VkCommandBuffer commands, const double* eye,
-           const float* toSun, const float* toMoon, WlkShadowMap map, WlkShadowMapState state,
+           const float* toSun, const float* toMoon, WlkCloudShadow map, WlkCloudShadowState state,
            WlkVulkanImage image, WlkVulkanImage shadowImage, WlkVulkanImage radiance,
            WlkVulkanImage transmittance, float (*rows)[4], WlkQuality quality, WlkCamera camera,
            const Cascade* cascade, WlkVulkanViewTargets targets) {{

@@ -61,7 +61,7 @@ WlkVulkanDeviceInfo Device::info() const {
   info.device = handle();
   info.apiVersion = VK_API_VERSION_1_3;
   info.queueFamilyIndex = family();
-  info.dualSrcBlendEnabled = 1;
+  info.enabledFeatures = WLK_VULKAN_FEATURE_BLEND;
   return info;
 }
 
@@ -72,7 +72,8 @@ WlkVulkanImage Image::imported(const WlkVulkanImageState& before,
   image.format = format();
   image.width = extent().width;
   image.height = extent().height;
-  image.depth = extent().depth * layers();
+  image.depth = extent().depth;
+  image.layerCount = layers();
   image.before = before;
   image.after = after;
   return image;

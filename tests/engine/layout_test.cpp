@@ -2,6 +2,8 @@
 // Image states before and after: what the validation layer checks, in every combination.
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "codec.hpp"
 #include "engine.hpp"
 #include "picture.hpp"
@@ -129,6 +131,70 @@ TEST(EngineLayouts, PictureStaysWhenNothingIsDrawn) {
       }
     }
   }
+}
+
+// One barrier of one layer.
+void moveLayer(VkCommandBuffer commands, const Image& image, uint32_t layer,
+               const WlkVulkanImageState& from, const WlkVulkanImageState& to) {
+  VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+  barrier.srcStageMask = from.stages;
+  barrier.srcAccessMask = from.access;
+  barrier.dstStageMask = to.stages;
+  barrier.dstAccessMask = to.access;
+  barrier.oldLayout = from.layout;
+  barrier.newLayout = to.layout;
+  barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.image = image.handle();
+  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, layer, 1};
+  VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+  info.imageMemoryBarrierCount = 1;
+  info.pImageMemoryBarriers = &barrier;
+  vkCmdPipelineBarrier2(commands, &info);
+}
+
+// The middle layer of three is drawn to; the others are in another layout, with contents of their
+// own. The validation layer objects if Welkin moves them.
+TEST(EngineLayouts, NoOtherLayerOfAnArrayIsMovedOrWritten) {
+  constexpr uint32_t LAYERS = 3;
+  constexpr uint32_t DRAWN = 1;
+  Engine engine;
+  const welkin::View view = engine.makeView(EXTENT, WLK_COMPOSITE_COMPUTE, COLOR);
+  const Image image(
+      engine.device(), COLOR, {EXTENT.width, EXTENT.height, 1},
+      VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
+      LAYERS);
+  const size_t layerBytes = size_t{EXTENT.width} * EXTENT.height * 8;
+  const support::Buffer before(engine.device(), layerBytes * LAYERS,
+                               VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+  const support::Buffer after(engine.device(), layerBytes * LAYERS,
+                              VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+  std::memset(before.data(), 0x34, layerBytes * LAYERS);
+  check(engine.beginFrame(1, 0));
+  VkCommandBuffer commands = engine.device().begin();
+  check(wlkVulkanCmdUpdate(engine.context(), commands));
+  image.write(commands, before);
+  for (uint32_t layer = 0; layer < LAYERS; ++layer) {
+    moveLayer(commands, image, layer, COPY_TARGET, layer == DRAWN ? GENERAL : ATTACHMENT);
+  }
+  WlkVulkanImage target = image.imported(GENERAL, SAMPLED);
+  target.baseArrayLayer = DRAWN;
+  target.layerCount = 1;
+  auto targets = make<WlkVulkanViewTargets>();
+  targets.color = &target;
+  check(wlkVulkanCmdRenderView(engine.context(), commands, view, &targets));
+  for (uint32_t layer = 0; layer < LAYERS; ++layer) {
+    moveLayer(commands, image, layer, layer == DRAWN ? SAMPLED : ATTACHMENT, COPY_SOURCE);
+  }
+  image.read(commands, after);
+  orderCopiesBeforeHost(commands);
+  engine.device().submit(commands);
+  engine.device().wait();
+  for (uint32_t layer = 0; layer < LAYERS; ++layer) {
+    const auto* drawn = static_cast<const unsigned char*>(after.data()) + layer * layerBytes;
+    const auto* old = static_cast<const unsigned char*>(before.data()) + layer * layerBytes;
+    EXPECT_EQ(std::memcmp(drawn, old, layerBytes) == 0, layer != DRAWN) << layer;
+  }
+  check(wlkVulkanForgetImage(engine.context(), image.handle()));
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ constexpr std::array FORMATS{VK_FORMAT_D32_SFLOAT,          VK_FORMAT_D16_UNORM,
 
 class EngineLightShadow : public testing::Test {
  protected:
-  EngineLightShadow() : headless_(EXTENT.width, EXTENT.height, WLK_QUALITY_LIGHT_SHADOWS) {
+  EngineLightShadow() : headless_(EXTENT.width, EXTENT.height, WLK_QUALITY_FLAG_LIGHT_SHADOWS) {
     const LightFrame frames[CASCADES]{{{30, 60, -60}, 150, TO_SUN},
                                       {{30, 80, -200}, 500, TO_SUN},
                                       {{0, 200, -800}, 4000, TO_SUN}};
@@ -48,7 +48,7 @@ class EngineLightShadow : public testing::Test {
 
   Result render(uint32_t composite, VkFormat format, VkFormat shadowFormat, bool withMap = true) {
     const welkin::View view = engine_.makeView(EXTENT, composite, format);
-    setQuality(engine_.context(), view, WLK_QUALITY_LIGHT_SHADOWS);
+    setQuality(engine_.context(), view, WLK_QUALITY_FLAG_LIGHT_SHADOWS);
     check(wlkPrepare(engine_.context()));
     Request request;
     request.view = view;
@@ -66,9 +66,10 @@ class EngineLightShadow : public testing::Test {
 
   std::vector<float> expected(VkFormat format, VkFormat shadowFormat) {
     const std::vector<float> map = quantised(shadowFormat, map_);
-    auto targets = make<WlkHeadlessTargets>();
+    auto targets = make<WlkHeadlessInputs>();
     targets.lightShadow = &shadow_;
     targets.shadowDepth = map.data();
+    targets.shadowDepthSize = map.size() * sizeof(float);
     targets.shadowWidth = MAP.width;
     targets.shadowHeight = MAP.height;
     return headless_.render(camera_, quantised(format, picture_.color), picture_.depth(CAMERA),

@@ -188,11 +188,13 @@ Headless::Headless(uint32_t width, uint32_t height, uint64_t qualityFlags)
 
 std::vector<float> Headless::render(const WlkCamera& camera, const std::vector<float>& color,
                                     const std::vector<float>& depth,
-                                    const WlkHeadlessTargets* shadow) {
+                                    const WlkHeadlessInputs* shadow) {
   check(wlkSetCamera(context_, view_, &camera));
-  auto targets = shadow != nullptr ? *shadow : make<WlkHeadlessTargets>();
+  auto targets = shadow != nullptr ? *shadow : make<WlkHeadlessInputs>();
   targets.color = color.empty() ? nullptr : color.data();
+  targets.colorSize = color.size() * sizeof(float);
   targets.depth = depth.empty() ? nullptr : depth.data();
+  targets.depthSize = depth.size() * sizeof(float);
   check(wlkRenderHeadless(context_, view_, &targets));
   std::vector<float> pixels(size_t{4} * width_ * height_);
   auto image = make<WlkImageData>();

@@ -64,7 +64,7 @@ class Headless {
   // map to take.
   std::vector<float> render(const WlkCamera& camera, const std::vector<float>& color,
                             const std::vector<float>& depth,
-                            const WlkHeadlessTargets* shadow = nullptr);
+                            const WlkHeadlessInputs* shadow = nullptr);
   WlkContext context() const { return context_; }
   WlkVolume cloud() const { return scene_.cloud; }
 

@@ -125,7 +125,7 @@ TEST_F(EngineStates, ImagesThatDoNotFitAreNamed) {
 
 TEST_F(EngineStates, BlendNeedsTheFeature) {
   WlkVulkanDeviceInfo device = engine_.device().info();
-  device.dualSrcBlendEnabled = 0;
+  device.enabledFeatures = 0;
   auto info = make<WlkContextInfo>();
   info.next = &device;
   const welkin::Context context(info);

@@ -19,9 +19,9 @@ WlkContext makeContext() {
   info.next = &headless;
   info.deviceMemoryLimit = MEMORY_LIMIT;
   WlkContext context = nullptr;
-  if (!checkResult(wlkCreateContext(&info, &context))) {
+  if (!checkResult(wlkCreateContext(WLK_API_VERSION, &info, &context))) {
     info.next = nullptr;
-    (void)checkResult(wlkCreateContext(&info, &context));
+    (void)checkResult(wlkCreateContext(WLK_API_VERSION, &info, &context));
   }
   return context;
 }
@@ -269,7 +269,7 @@ class Run {
     const WlkView view = views_.pick(input_);
     Framed<WlkFrameInfo> frame(input_);
     (void)checkResult(wlkBeginFrame(context_, frame.get()));
-    Framed<WlkHeadlessTargets> targets(input_);
+    Framed<WlkHeadlessInputs> targets(input_);
     targets.value.color = nullptr;
     targets.value.depth = nullptr;
     targets.value.lightShadow = nullptr;

@@ -32,7 +32,7 @@ class Run {
     auto info = welkin::make<WlkContextInfo>();
     info.allocator = {nullptr, allocate, release};
     g_untilFailure = input.oneIn(16) ? input.take<uint8_t>() : ~uint64_t{0} / 2;
-    (void)checkResult(wlkCreateContext(&info, &context_));
+    (void)checkResult(wlkCreateContext(WLK_API_VERSION, &info, &context_));
   }
   ~Run() {
     wlkDestroyContext(context_);
@@ -238,7 +238,7 @@ class Run {
       query.value.maxOrder = 1;
     }
     float rgb[8 * 8 * 3] = {};
-    if (checkResult(wlkEvalSkyMap(context_, query.get(), rgb))) {
+    if (checkResult(wlkEvalSkyMap(context_, query.get(), rgb, sizeof rgb))) {
       requireLight(rgb, std::size(rgb), std::numeric_limits<float>::max(), "sky maps are finite");
     }
   }

@@ -78,7 +78,7 @@ TEST(HostScene, ReadsEverySection) {
   EXPECT_TRUE(scene.volumes[0].placement.box);
   EXPECT_EQ(scene.quality.slicing, uint32_t{WLK_SLICING_LIGHT_ALIGNED});
   EXPECT_EQ(scene.quality.scattering, uint32_t{WLK_SCATTERING_SINGLE});
-  EXPECT_EQ(scene.quality.flags, uint64_t{WLK_QUALITY_NO_SKIP});
+  EXPECT_EQ(scene.quality.flags, uint64_t{WLK_QUALITY_FLAG_NO_SKIP});
   EXPECT_EQ(scene.view.layers, uint64_t{WLK_LAYER_SKY | WLK_LAYER_FOG});
   EXPECT_EQ(scene.view.composite, uint32_t{WLK_COMPOSITE_SEPARATE});
   EXPECT_DOUBLE_EQ(scene.camera.forward.x, 1.0);
@@ -91,7 +91,7 @@ TEST(HostScene, StartsFromAnAtmosphereThatSectionsChange) {
   const host::Scene mars = parse(R"({"atmosphere": "mars", "lights": [{}]})");
   EXPECT_EQ(mars.planet.radius, 3.3895e6f);
   EXPECT_LT(mars.sky->rayleighScattering[2], 1e-6f);
-  EXPECT_EQ(mars.absorber->extinction[1], 0.0f);
+  EXPECT_EQ(mars.absorber->absorption[1], 0.0f);
   EXPECT_EQ(mars.fog->scaleHeight, 11000.0f);
   EXPECT_EQ(mars.fogMedium->info.particle, uint32_t{WLK_PARTICLE_HENYEY_GREENSTEIN});
   EXPECT_LT(mars.lights[0].irradiance[0], 0.5f);

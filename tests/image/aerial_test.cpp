@@ -92,7 +92,7 @@ const std::vector<Scenery> SCENERIES{
        s.addBall(0.002f);
        addSlab(s);
      },
-     WLK_QUALITY_VOLUME_SHADOWS}};
+     WLK_QUALITY_FLAG_VOLUME_SHADOWS}};
 
 // Every froxel is what the composite has for an opaque pixel there. Distances come through a depth
 // buffer of floats on one side and a power of floats on the other. Light stored for all slabs (a
@@ -139,7 +139,7 @@ TEST(AerialFroxels, AreTheSameWhereSlicesAreSkipped) {
   s.scene.addBall(0.002f);
   addSlab(s.scene);
   std::vector<std::vector<float>> pictures;
-  for (const uint64_t flags : {uint64_t{0}, uint64_t{WLK_QUALITY_NO_SKIP}}) {
+  for (const uint64_t flags : {uint64_t{0}, uint64_t{WLK_QUALITY_FLAG_NO_SKIP}}) {
     s.scene.setQuality(WLK_QUALITY_LOW, flags);
     check(wlkPrepare(s.scene.context));
     s.render();

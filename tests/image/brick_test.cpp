@@ -228,7 +228,7 @@ TEST(Leaps, LeaveThePictureAsItIs) {
       show(0);
       for (const auto& eye : {std::array{0.0, 900.0, 0.0}, std::array{100.0, 900.0, -2500.0}}) {
         scene.setCamera(eye, 10, 5);
-        scene.setQuality(level, WLK_QUALITY_NO_SKIP);
+        scene.setQuality(level, WLK_QUALITY_FLAG_NO_SKIP);
         const Image all = scene.render();
         scene.setQuality(level);
         const Image leaping = scene.render();
@@ -240,7 +240,7 @@ TEST(Leaps, LeaveThePictureAsItIs) {
       // Other contents: nothing is leapt over because of the old.
       show(17);
       const Image moved = scene.render();
-      scene.setQuality(level, WLK_QUALITY_NO_SKIP);
+      scene.setQuality(level, WLK_QUALITY_FLAG_NO_SKIP);
       EXPECT_LE(largestDifference(moved, scene.render()), 0.1 * BOUND);
       EXPECT_TRUE(scene.messages().empty()) << scene.messages().front();
     }

@@ -33,7 +33,7 @@ struct HalfScene : HeadlessScene {
     upload(volume, {N, N, N}, reference::noiseCloud());
     return volume;
   }
-  Image at(uint32_t resolution, const WlkHeadlessTargets* targets = nullptr,
+  Image at(uint32_t resolution, const WlkHeadlessInputs* targets = nullptr,
            uint32_t scattering = WLK_SCATTERING_FORWARD, uint32_t batch = 0) const {
     auto quality = make<WlkQuality>();
     quality.level = WLK_QUALITY_LOW;
@@ -45,10 +45,10 @@ struct HalfScene : HeadlessScene {
     EXPECT_EQ(image.badValues(), 0u);
     return image;
   }
-  Image full(const WlkHeadlessTargets* targets = nullptr) const {
+  Image full(const WlkHeadlessInputs* targets = nullptr) const {
     return at(WLK_VOLUME_RESOLUTION_FULL, targets);
   }
-  Image half(const WlkHeadlessTargets* targets = nullptr) const {
+  Image half(const WlkHeadlessInputs* targets = nullptr) const {
     return at(WLK_VOLUME_RESOLUTION_HALF, targets);
   }
 };
@@ -160,9 +160,11 @@ TEST(HalfResolution, LeavesNoHaloAtOpaqueEdges) {
         }
       }
     }
-    auto targets = make<WlkHeadlessTargets>();
+    auto targets = make<WlkHeadlessInputs>();
     targets.depth = depth.data();
+    targets.depthSize = depth.size() * sizeof(float);
     targets.color = color.data();
+    targets.colorSize = color.size() * sizeof(float);
     const Image full = scene.full(&targets);
     const Image half = scene.half(&targets);
     const Image open = scene.full();

@@ -99,7 +99,7 @@ class LightShadowTest : public ::testing::Test {
     scene.setFog(static_cast<float>(EXTINCTION), static_cast<float>(SCALE_HEIGHT));
     scene.setCamera(EYE, 0, PITCH);
     depth.assign(size_t{WIDTH} * HEIGHT, static_cast<float>(0.1 / SURFACE));
-    setQuality(WLK_QUALITY_LIGHT_SHADOWS, WLK_SCATTERING_SINGLE);
+    setQuality(WLK_QUALITY_FLAG_LIGHT_SHADOWS, WLK_SCATTERING_SINGLE);
   }
   ~LightShadowTest() override { EXPECT_TRUE(scene.messages().empty()) << scene.messages().front(); }
   static SceneOptions options() {
@@ -115,15 +115,18 @@ class LightShadowTest : public ::testing::Test {
     check(wlkSetQuality(scene.context, scene.view, &quality));
   }
   Image plain() const {
-    auto targets = make<WlkHeadlessTargets>();
+    auto targets = make<WlkHeadlessInputs>();
     targets.depth = depth.data();
+    targets.depthSize = depth.size() * sizeof(float);
     return scene.render(&targets);
   }
   Image shaded(const WlkLightShadow& shadow, const std::vector<float>& map) const {
-    auto targets = make<WlkHeadlessTargets>();
+    auto targets = make<WlkHeadlessInputs>();
     targets.depth = depth.data();
+    targets.depthSize = depth.size() * sizeof(float);
     targets.lightShadow = &shadow;
     targets.shadowDepth = map.data();
+    targets.shadowDepthSize = map.size() * sizeof(float);
     targets.shadowWidth = targets.shadowHeight = TEXELS;
     Image image = scene.render(&targets);
     EXPECT_EQ(scene.stats().nonFinitePixels, 0u);
@@ -230,7 +233,8 @@ TEST_F(LightShadowTest, HoldsWithShadowsOfVolumesAsWell) {
   scene.setSun(35, 270);
   scene.addBall(0.01f);
   const Image dark = uniform(0.0f);
-  setQuality(WLK_QUALITY_LIGHT_SHADOWS | WLK_QUALITY_VOLUME_SHADOWS, WLK_SCATTERING_SINGLE);
+  setQuality(WLK_QUALITY_FLAG_LIGHT_SHADOWS | WLK_QUALITY_FLAG_VOLUME_SHADOWS,
+             WLK_SCATTERING_SINGLE);
   const Image lit = plain();
   const Image both = uniform(0.0f);
   EXPECT_LT(both.mean(), 0.9 * lit.mean());
@@ -245,10 +249,10 @@ TEST_F(LightShadowTest, OnlyTheFirstOrderGoes) {
     if (!fog) {
       check(wlkSetFog(scene.context, nullptr));
     }
-    setQuality(WLK_QUALITY_LIGHT_SHADOWS, WLK_SCATTERING_SINGLE);
+    setQuality(WLK_QUALITY_FLAG_LIGHT_SHADOWS, WLK_SCATTERING_SINGLE);
     const Image firstLit = plain();
     const Image firstDark = uniform(0.0f);
-    setQuality(WLK_QUALITY_LIGHT_SHADOWS, WLK_SCATTERING_DEFAULT);
+    setQuality(WLK_QUALITY_FLAG_LIGHT_SHADOWS, WLK_SCATTERING_DEFAULT);
     const Image allLit = plain();
     const Image allDark = uniform(0.0f);
     double worst = 0;

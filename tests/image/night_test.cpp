@@ -119,10 +119,12 @@ class Stars : public ::testing::Test {
     look(scene, eye);
     const std::vector<float> color = starField();
     const std::vector<float> sky(size_t{STAR_WIDTH} * STAR_HEIGHT, 0.0f);  // reversed depth: far
-    WlkHeadlessTargets targets = make<WlkHeadlessTargets>();
+    WlkHeadlessInputs targets = make<WlkHeadlessInputs>();
     targets.color = color.data();
+    targets.colorSize = color.size() * sizeof(float);
     const Image open = scene.render(&targets);
     targets.depth = sky.data();
+    targets.depthSize = sky.size() * sizeof(float);
     const Image image = scene.render(&targets);
     EXPECT_TRUE(image == open) << "depth of the sky is as no depth";
     EXPECT_EQ(image.badValues(), 0u);

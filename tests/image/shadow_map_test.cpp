@@ -25,8 +25,8 @@ constexpr std::array SUNS{std::array{90.0, 0.0}, std::array{52.0, 30.0}, std::ar
 constexpr std::array<double, 12> TURNED{1700, -500, 250, 9000, 150,  900,
                                         -200, 1200, 400, 300,  1500, -4000};
 
-WlkShadowMapInfo info(uint32_t content) {
-  auto value = make<WlkShadowMapInfo>();
+WlkCloudShadowInfo info(uint32_t content) {
+  auto value = make<WlkCloudShadowInfo>();
   value.width = SIZE;
   value.height = SIZE;
   value.content = content;
@@ -51,7 +51,7 @@ struct LightRay {
   Point origin;
   Point direction;
 };
-LightRay rayOf(const WlkShadowMapState& state, size_t texel, const Point& toSun) {
+LightRay rayOf(const WlkCloudShadowState& state, size_t texel, const Point& toSun) {
   const double u = (static_cast<double>(texel % SIZE) + 0.5) / SIZE;
   const size_t row = texel / SIZE;
   const double v = (static_cast<double>(row) + 0.5) / SIZE;
@@ -114,12 +114,12 @@ constexpr double FACE = 8 * 3 * EPS_FLOAT * 2500;
 
 TEST_F(ShadowMapTruth, OfATurnedBoxIsItsChordAtAnySun) {
   constexpr float EXTINCTION = 0.002f;
-  ShadowMapScene s(info(WLK_SHADOW_OPTICAL_DEPTH));
+  ShadowMapScene s(info(WLK_CLOUD_SHADOW_OPTICAL_DEPTH));
   addBox(s, TURNED, EXTINCTION);
   check(wlkPrepare(s.scene.context));
   for (const auto& [elevation, azimuth] : SUNS) {
     s.scene.setSun(elevation, azimuth);
-    const WlkShadowMapState state = s.record().state;
+    const WlkCloudShadowState state = s.record().state;
     EXPECT_STREQ(wlkReasonName(state.reason), "WLK_REASON_NEEDED");
     const std::vector<float> map = s.read();
     const Point toSun = towardsSun(elevation, azimuth);
@@ -144,7 +144,7 @@ TEST_F(ShadowMapTruth, OfASoftBallIsItsClosedForm) {
   constexpr uint32_t N = 64;
   constexpr double R = 1000;
   constexpr double EXTINCTION = 0.004;
-  ShadowMapScene s(info(WLK_SHADOW_OPTICAL_DEPTH));
+  ShadowMapScene s(info(WLK_CLOUD_SHADOW_OPTICAL_DEPTH));
   const Point middle{9000, 2500, -3300};
   const auto box =
       boxTransform({middle[0] - 1100, middle[1] - 1100, middle[2] - 1100}, {2200, 2200, 2200});
@@ -168,7 +168,7 @@ TEST_F(ShadowMapTruth, OfASoftBallIsItsClosedForm) {
   const double bound = (2 + 1.0 / 3) * (h / R) * (h / R) * 2 * R * EXTINCTION;
   for (const auto& [elevation, azimuth] : SUNS) {
     s.scene.setSun(elevation, azimuth);
-    const WlkShadowMapState state = s.record().state;
+    const WlkCloudShadowState state = s.record().state;
     const std::vector<float> map = s.read();
     const Point toSun = towardsSun(elevation, azimuth);
     double largest = 0;
@@ -195,7 +195,7 @@ TEST_F(ShadowMapTruth, OfASoftBallIsItsClosedForm) {
 TEST_F(ShadowMapTruth, OfANoiseCloudFollowsTheExactQuadrature) {
   const reference::VoxelField cloud = image_test::noiseCloudField();
   const reference::RayMarch march(cloud);
-  auto value = info(WLK_SHADOW_OPTICAL_DEPTH);
+  auto value = info(WLK_CLOUD_SHADOW_OPTICAL_DEPTH);
   const auto& m = cloud.worldFromBox;
   double reach = 0;
   for (size_t row = 0; row < 3; ++row) {
@@ -217,7 +217,7 @@ TEST_F(ShadowMapTruth, OfANoiseCloudFollowsTheExactQuadrature) {
   check(wlkPrepare(s.scene.context));
   for (const auto& [elevation, azimuth] : SUNS) {
     s.scene.setSun(elevation, azimuth);
-    const WlkShadowMapState state = s.record().state;
+    const WlkCloudShadowState state = s.record().state;
     const std::vector<float> map = s.read();
     const Point toSun = towardsSun(elevation, azimuth);
     double errors = 0;
@@ -247,14 +247,14 @@ TEST_F(ShadowMapTruth, OfANoiseCloudFollowsTheExactQuadrature) {
 
 TEST_F(ShadowMapTruth, OfSeveralVolumesIsTheirSumInAnyFormat) {
   constexpr std::array<double, 12> SECOND{2500, 0, 0, 9500, 0, 300, 0, 4000, 0, 0, 2000, -5700};
-  for (const uint32_t content : {WLK_SHADOW_OPTICAL_DEPTH, WLK_SHADOW_TRANSMITTANCE}) {
+  for (const uint32_t content : {WLK_CLOUD_SHADOW_OPTICAL_DEPTH, WLK_CLOUD_SHADOW_TRANSMITTANCE}) {
     for (const bool half : {false, true}) {
       ShadowMapScene s(info(content), half);
       addBox(s, TURNED, 0.0004f);
       addBox(s, SECOND, 0.001f);
       s.scene.setSun(52, 30);
       check(wlkPrepare(s.scene.context));
-      const WlkShadowMapState state = s.record().state;
+      const WlkCloudShadowState state = s.record().state;
       EXPECT_EQ(state.volumes, 2u);
       const std::vector<float> map = s.read();
       const Point toSun = towardsSun(52, 30);
@@ -267,7 +267,7 @@ TEST_F(ShadowMapTruth, OfSeveralVolumesIsTheirSumInAnyFormat) {
         const auto [c, d] = stretch(SECOND, ray);
         both += b > a && d > c ? 1 : 0;
         const double depth = 0.0004f * (b - a) + 0.001f * (d - c);
-        const bool color = content == WLK_SHADOW_TRANSMITTANCE;
+        const bool color = content == WLK_CLOUD_SHADOW_TRANSMITTANCE;
         const double truth = color ? std::exp(-depth) : depth;
         const double bound = (1e-5 + rounding) * truth + 1e-5 + 8 * FACE * 0.0014;
         for (size_t channel = 0; channel < (color ? 3U : 1U); ++channel) {
@@ -286,12 +286,12 @@ TEST_F(ShadowMapTruth, OfSeveralVolumesIsTheirSumInAnyFormat) {
 // What the header says of G and B, at receivers before, inside and behind the volumes.
 TEST_F(ShadowMapTruth, LayersShadeWhatStandsInsideThem) {
   constexpr float EXTINCTION = 0.003f;
-  ShadowMapScene s(info(WLK_SHADOW_LAYER));
+  ShadowMapScene s(info(WLK_CLOUD_SHADOW_LAYER));
   addBox(s, TURNED, EXTINCTION);
   check(wlkPrepare(s.scene.context));
   for (const auto& [elevation, azimuth] : SUNS) {
     s.scene.setSun(elevation, azimuth);
-    const WlkShadowMapState state = s.record().state;
+    const WlkCloudShadowState state = s.record().state;
     const std::vector<float> map = s.read();
     const Point toSun = towardsSun(elevation, azimuth);
     for (size_t i = 0; i < size_t{SIZE} * SIZE; ++i) {
@@ -321,11 +321,11 @@ TEST_F(ShadowMapTruth, LayersShadeWhatStandsInsideThem) {
 
 // Two layers of depths 1 and 3, from 5000 to 5200 m and from 2000 to 2400 m: mean and spread.
 TEST_F(ShadowMapTruth, LayersOfTwoVolumesKeepMeanAndSpread) {
-  ShadowMapScene s(info(WLK_SHADOW_LAYER));
+  ShadowMapScene s(info(WLK_CLOUD_SHADOW_LAYER));
   addBox(s, {9000, 0, 0, 5000, 0, 200, 0, 5000, 0, 0, 9000, -7500}, 1.0f / 200);
   addBox(s, {9000, 0, 0, 5000, 0, 400, 0, 2000, 0, 0, 9000, -7500}, 3.0f / 400);
   check(wlkPrepare(s.scene.context));
-  const WlkShadowMapState state = s.record().state;
+  const WlkCloudShadowState state = s.record().state;
   // The sun stands at the zenith: d is a height above, downwards.
   const double plane = worldFromMap(state.mapFromWorld, {0.5, 0.5, 0})[1];
   const double mean = plane - (1 * 5100 + 3 * 2200) / 4.0;
@@ -342,18 +342,18 @@ TEST_F(ShadowMapTruth, LayersOfTwoVolumesKeepMeanAndSpread) {
 }
 
 TEST_F(ShadowMapTruth, TexelsKeepTheirPlacesWhileTheMiddleMoves) {
-  ShadowMapScene s(info(WLK_SHADOW_OPTICAL_DEPTH));
+  ShadowMapScene s(info(WLK_CLOUD_SHADOW_OPTICAL_DEPTH));
   addBox(s, TURNED, 0.002f);
   s.scene.setSun(52, 30);
   check(wlkPrepare(s.scene.context));
-  auto value = info(WLK_SHADOW_OPTICAL_DEPTH);
+  auto value = info(WLK_CLOUD_SHADOW_OPTICAL_DEPTH);
   const auto cornerOf = [&] { return worldFromMap(s.record().state.mapFromWorld, {0, 0, 0}); };
-  const WlkShadowMapState first = s.record().state;
+  const WlkCloudShadowState first = s.record().state;
   const std::array<double, 3> corner = worldFromMap(first.mapFromWorld, {0, 0, 0});
   for (int step = 1; step < 40; ++step) {
     value.center[0] = 9700 + 37.0 * step;
     value.center[2] = -3000 + 61.0 * step;
-    check(wlkVulkanSetShadowMap(s.scene.context, s.map, &value));
+    check(wlkSetCloudShadow(s.scene.context, s.map, &value));
     const std::array<double, 3> now = cornerOf();
     for (size_t row = 0; row < 2; ++row) {
       const double* r = first.mapFromWorld + 4 * row;

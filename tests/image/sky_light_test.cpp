@@ -92,8 +92,9 @@ class SkyLightPicture : public ::testing::Test {
         rays.push_back(ray);
       }
     }
-    auto targets = make<WlkHeadlessTargets>();
+    auto targets = make<WlkHeadlessInputs>();
     targets.depth = depth.data();
+    targets.depthSize = depth.size() * sizeof(float);
     const Image picture = scene.render(std::isinf(surface) ? nullptr : &targets);
     auto batch = make<WlkRayBatch>();
     batch.count = static_cast<uint32_t>(rays.size());
@@ -332,7 +333,7 @@ TEST_F(SkyLightTurned, TheMoonLightsACloudAtNight) {
     sun.direction[2] = static_cast<float>(-std::cos(elevation));
     const WlkLight orders[2][2] = {{sun, moon}, {moon, sun}};
     std::vector<Image> pictures;
-    for (const uint64_t flags : {uint64_t{0}, uint64_t{WLK_QUALITY_NO_SKIP}}) {
+    for (const uint64_t flags : {uint64_t{0}, uint64_t{WLK_QUALITY_FLAG_NO_SKIP}}) {
       scene.setQuality(WLK_QUALITY_LOW, flags);
       for (const auto& lights : orders) {
         check(wlkSetLights(scene.context, 2, sizeof *lights, lights));

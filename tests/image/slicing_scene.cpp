@@ -155,8 +155,9 @@ void SlicingScene::setFog(double extinction) {
 
 Picture SlicingScene::render(const std::vector<float>& depth) {
   welkin::check(wlkPrepare(scene_.context));
-  auto targets = welkin::make<WlkHeadlessTargets>();
+  auto targets = welkin::make<WlkHeadlessInputs>();
   targets.depth = depth.empty() ? nullptr : depth.data();
+  targets.depthSize = depth.size() * sizeof(float);
   welkin::check(wlkRenderHeadless(scene_.context, scene_.view, &targets));
   Picture picture;
   picture.size = size_;

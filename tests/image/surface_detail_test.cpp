@@ -155,7 +155,7 @@ TEST_F(SurfaceDetailImage, FramesRepeatAndKeepTheCells) {
   EXPECT_EQ(all, light + 3);  // the cells stay
   scene.setSun(40, 60);
   EXPECT_TRUE(scene.render() == first);
-  scene.setQuality(WLK_QUALITY_LOW, WLK_QUALITY_NO_SKIP);
+  scene.setQuality(WLK_QUALITY_LOW, WLK_QUALITY_FLAG_NO_SKIP);
   EXPECT_TRUE(scene.render() == first);
   EXPECT_EQ(surfaceLightPass(scene).commands, all);
 }

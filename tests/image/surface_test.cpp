@@ -50,7 +50,7 @@ class SurfaceImage : public ::testing::Test {
   }
 
   // Transmittances against the exact ones; counts pixels that the box covers.
-  int expectChords(const glm::dvec3& eye, const WlkHeadlessTargets* targets = nullptr,
+  int expectChords(const glm::dvec3& eye, const WlkHeadlessInputs* targets = nullptr,
                    double wallDepth = 1e30) const {
     // Two roundings to steps of 2^-20 of the box's depth, 2 km, and of floats at 5 km.
     constexpr double LENGTH = 2 * (2000 * std::exp2(-20) + 5000 * 8 * 6e-8);
@@ -101,8 +101,9 @@ TEST_F(SurfaceImage, EndsAtOpaqueSurfaces) {
                        (static_cast<double>(m[11]) * -WALL + static_cast<double>(m[15]));
   const std::vector<float> pixels(size_t{scene.options().width} * scene.options().height,
                                   static_cast<float>(depth));
-  auto targets = make<WlkHeadlessTargets>();
+  auto targets = make<WlkHeadlessInputs>();
   targets.depth = pixels.data();
+  targets.depthSize = pixels.size() * sizeof(float);
   EXPECT_GT(expectChords({0, 2, 0}, &targets, WALL), 30);
 }
 
@@ -175,7 +176,7 @@ TEST_F(SurfaceImage, FramesRepeatAndKeepTheLight) {
   EXPECT_TRUE(scene.render() == first);
   EXPECT_EQ(pass(WLK_PASS_SURFACE_LIGHT).reason, uint32_t{WLK_REASON_UNCHANGED});
   EXPECT_EQ(pass(WLK_PASS_SURFACE_LIGHT).commands, 0u);
-  scene.setQuality(WLK_QUALITY_LOW, WLK_QUALITY_NO_SKIP);
+  scene.setQuality(WLK_QUALITY_LOW, WLK_QUALITY_FLAG_NO_SKIP);
   EXPECT_TRUE(scene.render() == first);
   EXPECT_GT(pass(WLK_PASS_SURFACE_LIGHT).commands, 0u);
   scene.setQuality(WLK_QUALITY_LOW);
@@ -190,6 +191,10 @@ TEST_F(SurfaceImage, SkipsWhatIsNotSeen) {
   scene.setCamera({0, 2, 0}, 180, 0);
   scene.render();
   EXPECT_EQ(pass(WLK_PASS_SURFACE).reason, uint32_t{WLK_REASON_OUTSIDE_VIEW});
+  for (const uint32_t kind : {WLK_PASS_SURFACE, WLK_PASS_SURFACE_LIGHT}) {
+    EXPECT_EQ(pass(kind).surface.id, surface.id);
+    EXPECT_EQ(pass(kind).volume.id, 0u);
+  }
   EXPECT_EQ(pass(WLK_PASS_SURFACE).commands + pass(WLK_PASS_SURFACE_LIGHT).commands, 0u);
   scene.setCamera({0, 2, 0}, 0, 0);
   scene.clearLights();

@@ -221,7 +221,7 @@ TEST(VolumeDistance, IsTheSameWithoutSkipsAndAfterAnotherSize) {
     before.push_back(s.at(i));
   }
   auto all = make<WlkQuality>();
-  all.flags = WLK_QUALITY_NO_SKIP;
+  all.flags = WLK_QUALITY_FLAG_NO_SKIP;
   s.setQuality(0, all);
   s.render();
   for (uint32_t i = 0; i < SIZE * SIZE; ++i) {
@@ -269,7 +269,7 @@ TEST(VolumeDistance, CostsNothingUnlessItIsAskedFor) {
   EXPECT_EQ(s.scene.stats().dispatches, with.view.dispatches);
   EXPECT_EQ(s.scene.stats().barriers, with.view.barriers);
   s.asked = false;
-  check(wlkVulkanSetVolumeDistance(s.scene.context, s.scene.view, 0));
+  check(wlkSetVolumeDistance(s.scene.context, s.scene.view, 0));
   const FrameCounts never = steady();
   EXPECT_EQ(std::memcmp(&never.view, &without.view, sizeof never.view), 0);
   s.asked = true;

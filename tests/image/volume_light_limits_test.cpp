@@ -192,7 +192,7 @@ TEST_F(VolumeLight, IsThatOfAFreshContextAfterTheCameraHasMoved) {
   const Shown moved = render();
   EXPECT_EQ(commands(), 1u);
   EXPECT_GT(first, 1u);
-  setScattering(WLK_SCATTERING_ALL_ORDERS, WLK_QUALITY_NO_SKIP);
+  setScattering(WLK_SCATTERING_ALL_ORDERS, WLK_QUALITY_FLAG_NO_SKIP);
   EXPECT_TRUE(render().radiance == moved.radiance);
   EXPECT_EQ(commands(), first);
   EXPECT_TRUE(scene->messages().empty());

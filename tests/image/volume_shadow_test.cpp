@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Shadows of volumes on the air (WLK_QUALITY_VOLUME_SHADOWS): what they take from a picture against
-// a quadrature of single scattering in an exponential atmosphere on a sphere, written anew here.
+// Shadows of volumes on the air (WLK_QUALITY_FLAG_VOLUME_SHADOWS): what they take from a picture
+// against a quadrature of single scattering in an exponential atmosphere on a sphere, written anew
+// here.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -148,7 +149,7 @@ TEST(VolumeShadow, TakesFromTheAirWhatAQuadratureSays) {
                                              static_cast<float>(test.box.extinction));
     scene.upload(volume, {2, 2, 2}, std::vector<float>(8, 1.0f));
     const Image lit = renderCase(scene, 0);
-    const Image shaded = renderCase(scene, WLK_QUALITY_VOLUME_SHADOWS);
+    const Image shaded = renderCase(scene, WLK_QUALITY_FLAG_VOLUME_SHADOWS);
     EXPECT_EQ(scene.stats().nonFinitePixels, 0u);
     const double level = std::cos(test.elevation_deg * DEGREE);
     const Vec toSun{level * std::sin(test.azimuth_deg * DEGREE),
@@ -223,7 +224,7 @@ TEST(VolumeShadow, OfADeckIsWhatItTurnsBack) {
     for (const bool first : {false, true}) {
       const uint32_t scattering = first ? WLK_SCATTERING_SINGLE : WLK_SCATTERING_FORWARD;
       const Image lit = renderDeck(scene, scattering, 0);
-      const Image shaded = renderDeck(scene, scattering, WLK_QUALITY_VOLUME_SHADOWS);
+      const Image shaded = renderDeck(scene, scattering, WLK_QUALITY_FLAG_VOLUME_SHADOWS);
       for (uint32_t y = 0; y < lit.height; ++y) {
         for (uint32_t x = 0; x < lit.width; ++x) {
           taken[first ? 1 : 0] += double{lit.at(x, y)[1]} - double{shaded.at(x, y)[1]};
@@ -242,10 +243,12 @@ TEST(VolumeShadow, ChangesNothingWhereThereIsNoShadow) {
   const HeadlessScene scene;
   scene.setSky();
   scene.setSun(30, 40);
-  EXPECT_TRUE(renderCase(scene, WLK_QUALITY_VOLUME_SHADOWS) == renderCase(scene, 0)) << "no volume";
+  EXPECT_TRUE(renderCase(scene, WLK_QUALITY_FLAG_VOLUME_SHADOWS) == renderCase(scene, 0))
+      << "no volume";
   const WlkVolume volume = scene.addBall(0.01f);
   scene.upload(volume, {8, 8, 8}, std::vector<float>(512, 0.0f));
-  EXPECT_TRUE(renderCase(scene, WLK_QUALITY_VOLUME_SHADOWS) == renderCase(scene, 0)) << "empty";
+  EXPECT_TRUE(renderCase(scene, WLK_QUALITY_FLAG_VOLUME_SHADOWS) == renderCase(scene, 0))
+      << "empty";
   EXPECT_TRUE(scene.messages().empty()) << scene.messages().front();
 }
 

@@ -12,7 +12,7 @@ import shutil
 import subprocess
 import sys
 
-# Beyond them a program needs nothing but libwelkin0.
+# Beyond them a program needs nothing but libwelkin1.
 RUNTIME = {"libc6", "libgcc-s1", "libstdc++6", "libm"}
 
 
@@ -69,14 +69,14 @@ def debian(build, work, source):
         shutil.rmtree(folder, ignore_errors=True)
     run("cpack", "-G", "DEB", "-B", made, cwd=build)
     packages = {field(path, "Package"): path for path in made.glob("*.deb")}
-    if sorted(packages) != ["libwelkin-dev", "libwelkin0", "welkin-tools"]:
+    if sorted(packages) != ["libwelkin-dev", "libwelkin1", "welkin-tools"]:
         sys.exit(f"packages are {sorted(packages)}")
-    needs = {word.split()[0] for word in field(packages["libwelkin0"], "Depends").split(",")}
+    needs = {word.split()[0] for word in field(packages["libwelkin1"], "Depends").split(",")}
     if not needs <= RUNTIME:
-        sys.exit(f"libwelkin0 depends on {sorted(needs - RUNTIME)}")
+        sys.exit(f"libwelkin1 depends on {sorted(needs - RUNTIME)}")
     for name in ("libwelkin-dev", "welkin-tools"):
-        if "libwelkin0 (= " not in field(packages[name], "Depends"):
-            sys.exit(f"{name} does not depend on libwelkin0 of its version")
+        if "libwelkin1 (= " not in field(packages[name], "Depends"):
+            sys.exit(f"{name} does not depend on libwelkin1 of its version")
     owners = {}
     for name, path in packages.items():
         for line in run("dpkg-deb", "--contents", path).splitlines():

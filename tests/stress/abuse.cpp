@@ -51,7 +51,9 @@ VictimScene::VictimScene() : scene(victimOptions()) {
 void VictimScene::restore() {
   check(wlkSetPlanet(scene.context, nullptr));
   check(wlkSetAbsorber(scene.context, nullptr));
-  check(wlkSetAmbient(scene.context, nullptr));
+  auto off = make<WlkAmbient>();
+  off.mode = WLK_AMBIENT_OFF;
+  check(wlkSetAmbient(scene.context, &off));
   scene.setSky();
   scene.setFog(2e-4f, 300.0f);
   scene.setSun(35.0, 20.0);
@@ -86,7 +88,7 @@ void VictimScene::expectUnchanged() {
 CpuContext::CpuContext(const WlkAllocator& allocator) {
   auto info = make<WlkContextInfo>();
   info.allocator = allocator;
-  check(wlkCreateContext(&info, &context));
+  check(wlkCreateContext(WLK_API_VERSION, &info, &context));
 }
 
 }  // namespace welkin::test

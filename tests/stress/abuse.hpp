@@ -83,6 +83,19 @@ void abuseHeader(const T& valid, const std::function<WlkResult(const T*)>& call)
   bad = valid;
   bad.next = &unknown;
   EXPECT_FAILS(call(&bad), WLK_ERROR_UNKNOWN_STRUCT, "next");
+  // What has no meaning yet is 0, or it could never get one.
+  const auto refuse = [&](uint32_t& reserved, const char* field) {
+    reserved = 1;
+    EXPECT_FAILS(call(&bad), WLK_ERROR_INVALID_ARGUMENT, field);
+    reserved = 0;
+  };
+  bad = valid;
+  if constexpr (requires { bad.reserved0; }) {
+    refuse(bad.reserved0, "reserved0");
+  }
+  if constexpr (requires { bad.reserved1; }) {
+    refuse(bad.reserved1, "reserved1");
+  }
   LongerThan<T> longer = longerThan(valid);
   for (size_t i = 0; i < sizeof longer.tail; i += sizeof longer.tail - 1) {
     longer.tail[i] = 1;

@@ -33,7 +33,7 @@ class AerialAbuse : public ::testing::Test {
     EXPECT_TRUE(s.scene.device().messages().empty()) << s.scene.device().messages().front();
   }
   WlkResult set(const Info* info) {
-    return wlkVulkanSetAerialPerspective(s.scene.context, s.scene.view, info);
+    return wlkSetAerialPerspective(s.scene.context, s.scene.view, info);
   }
   // The frame's code with these images; nothing may be recorded.
   WlkResult render(const WlkVulkanImage* radiance, const WlkVulkanImage* transmittance) {
@@ -87,8 +87,8 @@ TEST_F(AerialAbuse, FieldsOutOfRangeAreNamedAndChangeNothing) {
   abuseHeader<Info>(small(), [&](const Info* info) { return set(info); });
   const Info info = small();
   for (const uint64_t id : {uint64_t{0}, s.scene.view.id + (1 << 24)}) {
-    EXPECT_FAILS(wlkVulkanSetAerialPerspective(s.scene.context, {id}, &info),
-                 WLK_ERROR_INVALID_HANDLE, "view");
+    EXPECT_FAILS(wlkSetAerialPerspective(s.scene.context, {id}, &info), WLK_ERROR_INVALID_HANDLE,
+                 "view");
   }
 }
 
@@ -128,8 +128,7 @@ TEST_F(AerialAbuse, CallsOutOfOrderAreRefused) {
 TEST(AerialModes, NeedAnEngineDevice) {
   const CpuContext cpu;
   const Info info = small();
-  EXPECT_FAILS(wlkVulkanSetAerialPerspective(cpu.context, {}, &info), WLK_ERROR_WRONG_STATE,
-               "context");
+  EXPECT_FAILS(wlkSetAerialPerspective(cpu.context, {}, &info), WLK_ERROR_WRONG_STATE, "context");
 }
 
 // Froxels of every length, an eye in space, underground and inside dense volumes: finite, never

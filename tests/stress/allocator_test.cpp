@@ -30,7 +30,7 @@ uint64_t failEachUntilSuccess(CountingAllocator& memory, const std::function<Wlk
 void expectCreationSurvives(CountingAllocator& memory, const WlkContextInfo& info) {
   WlkContext context = nullptr;
   const uint64_t needed = failEachUntilSuccess(
-      memory, [&] { return wlkCreateContext(&info, &context); },
+      memory, [&] { return wlkCreateContext(WLK_API_VERSION, &info, &context); },
       [&] {
         EXPECT_EQ(context, nullptr);
         EXPECT_EQ(memory.live(), 0u) << "a failed wlkCreateContext leaks";
@@ -192,13 +192,13 @@ TEST(Allocator, TargetsBesideThePictureSurviveEveryFailure) {
     auto aerial = make<WlkAerialPerspective>();
     aerial.width = aerial.height = aerial.depth = 4;
     failEachUntilSuccess(
-        memory, [&] { return wlkVulkanSetAerialPerspective(c, scene.view, &aerial); }, nothing);
+        memory, [&] { return wlkSetAerialPerspective(c, scene.view, &aerial); }, nothing);
     failEachUntilSuccess(
-        memory, [&] { return wlkVulkanSetVolumeDistance(c, scene.view, 1); }, nothing);
-    const auto info = make<WlkShadowMapInfo>();
-    WlkShadowMap map{};
+        memory, [&] { return wlkSetVolumeDistance(c, scene.view, 1); }, nothing);
+    const auto info = make<WlkCloudShadowInfo>();
+    WlkCloudShadow map{};
     EXPECT_GT(failEachUntilSuccess(
-                  memory, [&] { return wlkVulkanCreateShadowMap(c, &info, &map); },
+                  memory, [&] { return wlkCreateCloudShadow(c, &info, &map); },
                   [&] { EXPECT_EQ(map.id, 0u); }),
               0u);
     EXPECT_GT(failEachUntilSuccess(
@@ -207,7 +207,7 @@ TEST(Allocator, TargetsBesideThePictureSurviveEveryFailure) {
     scene.renderFrame();
     EXPECT_EQ(scene.read().badValues(), 0u);
     failEachUntilSuccess(
-        memory, [&] { return wlkVulkanDestroyShadowMap(c, map); }, nothing);
+        memory, [&] { return wlkDestroyCloudShadow(c, map); }, nothing);
     EXPECT_TRUE(scene.messages().empty()) << scene.messages().front();
   }
   EXPECT_EQ(memory.live(), 0u) << "the context leaks";

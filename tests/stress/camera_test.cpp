@@ -73,11 +73,12 @@ TEST(CameraAbuse, EveryUsualProjectionIsAcceptedAndFinite) {
       {1e5f, 0, 0, 0, 0, 1e5f, 0, 0, 0, 0, 0, -1, 0, 0, 100, 0},                  // telescope
       {1e-3f, 0, 0, 0, 0, 1e-3f, 0, 0, 0, 0, 0, -1, 0, 0, N, 0}};                 // 179.9 degrees
   const std::vector<float> depth(16 * 12, 0.3f);
-  auto targets = make<WlkHeadlessTargets>();
+  auto targets = make<WlkHeadlessInputs>();
   targets.depth = depth.data();
+  targets.depthSize = depth.size() * sizeof(float);
   for (size_t i = 0; i < good.size(); ++i) {
     EXPECT_EQ(project(good[i]), WLK_SUCCESS) << i;
-    for (const WlkHeadlessTargets* with : {static_cast<WlkHeadlessTargets*>(nullptr), &targets}) {
+    for (const WlkHeadlessInputs* with : {static_cast<WlkHeadlessInputs*>(nullptr), &targets}) {
       ASSERT_EQ(wlkRenderHeadless(victim.scene.context, victim.scene.view, with), WLK_SUCCESS);
       EXPECT_EQ(victim.scene.read(WLK_IMAGE_COLOR).badValues(), 0u) << i;
       EXPECT_EQ(victim.scene.stats().nonFinitePixels, 0u) << i;
@@ -102,11 +103,13 @@ TEST(CameraAbuse, AnyDepthAndColorOfTheEngineGiveAFinitePicture) {
     }
     color.push_back(0.25f);
   }
-  auto targets = make<WlkHeadlessTargets>();
+  auto targets = make<WlkHeadlessInputs>();
   targets.depth = depth.data();
+  targets.depthSize = depth.size() * sizeof(float);
   ASSERT_EQ(wlkRenderHeadless(victim.scene.context, victim.scene.view, &targets), WLK_SUCCESS);
   EXPECT_EQ(victim.scene.read(WLK_IMAGE_COLOR).badValues(), 0u);
   targets.color = color.data();
+  targets.colorSize = color.size() * sizeof(float);
   ASSERT_EQ(wlkRenderHeadless(victim.scene.context, victim.scene.view, &targets), WLK_SUCCESS);
   const Image image = victim.scene.read(WLK_IMAGE_COLOR);
   EXPECT_EQ(image.badValues(), 0u);

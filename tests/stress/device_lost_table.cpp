@@ -68,7 +68,7 @@ WlkResult uploadBricks(Objects o) {
 WlkResult createContext(Objects) {
   const auto info = make<WlkContextInfo>();
   WlkContext context = nullptr;
-  const WlkResult result = wlkCreateContext(&info, &context);
+  const WlkResult result = wlkCreateContext(WLK_API_VERSION, &info, &context);
   wlkDestroyContext(context);
   return result;
 }
@@ -173,7 +173,7 @@ WlkResult evalSkyMap(Objects o) {
   query.size = 4;
   query.maxOrder = 1;
   float rgb[4 * 4 * 3] = {};
-  return wlkEvalSkyMap(*o.context, &query, rgb);
+  return wlkEvalSkyMap(*o.context, &query, rgb, sizeof rgb);
 }
 
 WlkResult evalPhase(Objects o) {
@@ -223,9 +223,9 @@ WlkResult renderView(Objects o) {
 }
 
 WlkResult createMap(Objects o) {
-  const auto info = make<WlkShadowMapInfo>();
-  WlkShadowMap map{};
-  return wlkVulkanCreateShadowMap(*o.context, &info, &map);
+  const auto info = make<WlkCloudShadowInfo>();
+  WlkCloudShadow map{};
+  return wlkCreateCloudShadow(*o.context, &info, &map);
 }
 
 double values[WLK_AMBIENT_VALUES];
@@ -269,12 +269,11 @@ std::vector<LostRow> sceneRows() {
       {"wlkSetQuality", OK, OK, setQuality},
       {"wlkReportFrameTime", OK, OK,
        [](Objects o) { return wlkReportFrameTime(*o.context, o.view, 1, 1.5); }},
-      {"wlkVulkanSetAerialPerspective", OK, MODE,
-       [](Objects o) { return set(wlkVulkanSetAerialPerspective, o, o.view); }},
-      {"wlkVulkanSetVolumeDistance", OK, MODE,
-       [](Objects o) { return wlkVulkanSetVolumeDistance(*o.context, o.view, 0); }},
-      {"wlkVulkanSetShadowMap", OK, NONE,
-       [](Objects o) { return set(wlkVulkanSetShadowMap, o, o.map); }},
+      {"wlkSetAerialPerspective", OK, MODE,
+       [](Objects o) { return set(wlkSetAerialPerspective, o, o.view); }},
+      {"wlkSetVolumeDistance", OK, MODE,
+       [](Objects o) { return wlkSetVolumeDistance(*o.context, o.view, 0); }},
+      {"wlkSetCloudShadow", OK, NONE, [](Objects o) { return set(wlkSetCloudShadow, o, o.map); }},
   };
 }
 
@@ -288,8 +287,8 @@ std::vector<LostRow> queryRows() {
       {"wlkGetErrorEstimate", OK, OK,
        [](Objects o) { return get(wlkGetErrorEstimate, o, o.view); }},
       {"wlkGetFrameStats", OK, OK, frameStats},
-      {"wlkVulkanGetShadowMap", OK, NONE,
-       [](Objects o) { return get(wlkVulkanGetShadowMap, o, o.map); }},
+      {"wlkGetCloudShadowState", OK, NONE,
+       [](Objects o) { return get(wlkGetCloudShadowState, o, o.map); }},
       {"wlkEvalSky", OK, OK, evalSky},
       {"wlkEvalSkyMap", OK, OK, evalSkyMap},
       {"wlkEvalPhase", OK, OK, evalPhase},
@@ -326,11 +325,11 @@ std::vector<LostRow> deviceRows() {
       {"wlkVulkanCmdUpdate", LOST, LOST,
        [](Objects o) { return wlkVulkanCmdUpdate(*o.context, o.commands); }},
       {"wlkVulkanCmdRenderView", LOST, LOST, renderView},
-      {"wlkVulkanCmdRenderShadowMap", LOST, LOST,
+      {"wlkVulkanCmdRenderCloudShadow", LOST, LOST,
        [](Objects o) {
-         return wlkVulkanCmdRenderShadowMap(*o.context, o.commands, o.map, &o.image);
+         return wlkVulkanCmdRenderCloudShadow(*o.context, o.commands, o.map, &o.image);
        }},
-      {"wlkVulkanCreateShadowMap", LOST, MODE, createMap},
+      {"wlkCreateCloudShadow", LOST, MODE, createMap},
       {"wlkVulkanSetVolumeImage", LOST, MODE,
        [](Objects o) { return wlkVulkanSetVolumeImage(*o.context, o.volume, 0, &o.image); }},
   };
@@ -342,8 +341,8 @@ std::vector<LostRow> destroyingRows() {
        [](Objects o) { return wlkVulkanForgetImage(*o.context, o.image.image); }, DESTROYS},
       {"wlkClearVolumeDiameters", OK, OK,
        [](Objects o) { return wlkClearVolumeDiameters(*o.context, o.volume); }, DESTROYS},
-      {"wlkVulkanDestroyShadowMap", OK, NONE,
-       [](Objects o) { return wlkVulkanDestroyShadowMap(*o.context, o.map); }, DESTROYS},
+      {"wlkDestroyCloudShadow", OK, NONE,
+       [](Objects o) { return wlkDestroyCloudShadow(*o.context, o.map); }, DESTROYS},
       {"wlkDestroySurface", OK, NONE,
        [](Objects o) { return wlkDestroySurface(*o.context, o.surface); }, DESTROYS},
       {"wlkDestroyView", OK, OK, [](Objects o) { return wlkDestroyView(*o.context, o.view); },

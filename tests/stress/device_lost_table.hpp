@@ -17,7 +17,7 @@ struct LostObjects {
   WlkVolume second;  // if there is one
   WlkView view;
   WlkSurface surface;
-  WlkShadowMap map;
+  WlkCloudShadow map;
   WlkVulkanImage image{};  // of the engine, with the volume's size
   VkCommandBuffer commands = VK_NULL_HANDLE;
 };

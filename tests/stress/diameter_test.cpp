@@ -109,7 +109,7 @@ TEST(DiameterExtremes, AreFinite) {
   }
   const WlkVolumeUpload upload = whole(values);
   check(wlkUploadVolumeDiameters(scene.context, volume, &upload));
-  auto frame = make<WlkHeadlessTargets>();
+  auto frame = make<WlkHeadlessInputs>();
   EXPECT_EQ(wlkRenderHeadless(scene.context, scene.view, &frame), WLK_ERROR_NOT_PREPARED);
   EXPECT_EQ(scene.render().badValues(), 0u);
   check(wlkClearVolumeDiameters(scene.context, volume));

@@ -44,7 +44,7 @@ WlkResult Life::create() {
   auto info = make<WlkContextInfo>();
   info.next = &device;
   info.allocator = memory.callbacks();
-  return wlkCreateContext(&info, &context);
+  return wlkCreateContext(WLK_API_VERSION, &info, &context);
 }
 
 WlkResult Life::createMedium() {
@@ -110,7 +110,7 @@ WlkResult Life::setAerial() const {
   info.width = Engine::FROXELS.width;
   info.height = Engine::FROXELS.height;
   info.depth = Engine::FROXELS.depth;
-  return wlkVulkanSetAerialPerspective(context, view, &info);
+  return wlkSetAerialPerspective(context, view, &info);
 }
 
 WlkResult Life::createSurface() {
@@ -134,10 +134,10 @@ WlkResult Life::moveSurface() const {
 }
 
 WlkResult Life::createMap() {
-  auto info = make<WlkShadowMapInfo>();
+  auto info = make<WlkCloudShadowInfo>();
   info.width = info.height = Engine::MAP_SIZE;
   info.maxSamples = 8;
-  const WlkResult result = wlkVulkanCreateShadowMap(context, &info, &map);
+  const WlkResult result = wlkCreateCloudShadow(context, &info, &map);
   EXPECT_TRUE(result >= 0 || map.id == 0);
   return result;
 }
@@ -184,7 +184,7 @@ WlkResult Life::recorded(const std::function<WlkResult(VkCommandBuffer)>& record
 WlkResult Life::recordMap() {
   const WlkVulkanImage image = discarded(engine_.map);
   return recorded([&](VkCommandBuffer commands) {
-    return wlkVulkanCmdRenderShadowMap(context, commands, map, &image);
+    return wlkVulkanCmdRenderCloudShadow(context, commands, map, &image);
   });
 }
 
@@ -278,10 +278,10 @@ void Life::addScene(Steps& steps) {
 // What some engines ask for beside the picture.
 void Life::addTargets(Steps& steps) {
   if (kind_.targets) {
-    steps.push_back({"wlkVulkanSetAerialPerspective", [this] { return setAerial(); }, false});
-    steps.push_back({"wlkVulkanSetVolumeDistance",
-                     [this] { return wlkVulkanSetVolumeDistance(context, view, 1); }, false});
-    steps.push_back({"wlkVulkanCreateShadowMap", [this] { return createMap(); }, true});
+    steps.push_back({"wlkSetAerialPerspective", [this] { return setAerial(); }, false});
+    steps.push_back(
+        {"wlkSetVolumeDistance", [this] { return wlkSetVolumeDistance(context, view, 1); }, false});
+    steps.push_back({"wlkCreateCloudShadow", [this] { return createMap(); }, true});
   }
   if (kind_.diameters) {
     steps.push_back({"wlkUploadVolumeDiameters", [this] { return uploadDiameters(); }, true});
@@ -305,15 +305,15 @@ void Life::addLaterSetters(Steps& steps) {
     return wlkSetSurfaceTransform(context, surface, transform);
   };
   const auto turnMap = [this] {
-    auto info = make<WlkShadowMapInfo>();
+    auto info = make<WlkCloudShadowInfo>();
     info.width = info.height = Engine::MAP_SIZE;
     info.maxSamples = 8;
     info.center[2] = -1500;
-    return wlkVulkanSetShadowMap(context, map, &info);
+    return wlkSetCloudShadow(context, map, &info);
   };
   steps.push_back({"wlkSetVolumeTransform", turn, false});
   steps.push_back({"wlkSetSurfaceTransform", move, false});
-  steps.push_back({"wlkVulkanSetShadowMap", turnMap, false});
+  steps.push_back({"wlkSetCloudShadow", turnMap, false});
   steps.push_back({"wlkVulkanSetVolumeImage", [this] { return setImage(); }, true});
 }
 
@@ -332,8 +332,8 @@ void Life::addQueries(Steps& steps) {
     return wlkGetErrorEstimate(context, view, &value);
   };
   const auto mapState = [this] {
-    auto value = make<WlkShadowMapState>();
-    return wlkVulkanGetShadowMap(context, map, &value);
+    auto value = make<WlkCloudShadowState>();
+    return wlkGetCloudShadowState(context, map, &value);
   };
   const auto sky = [this] {
     const WlkRay ray{{0, 2, 0}, {0.6, 0.8, 0}, 1e5};
@@ -347,7 +347,7 @@ void Life::addQueries(Steps& steps) {
     auto query = make<WlkSkyMapQuery>();
     query.size = 4;
     float rgb[4 * 4 * 3] = {};
-    return wlkEvalSkyMap(context, &query, rgb);
+    return wlkEvalSkyMap(context, &query, rgb, sizeof rgb);
   };
   const auto ambient = [this] {
     const double origin[3] = {0, 2, 0};
@@ -378,7 +378,7 @@ void Life::addQueries(Steps& steps) {
   };
   steps.push_back({"wlkGetFrameStats", stats, false});
   steps.push_back({"wlkGetErrorEstimate", estimate, false});
-  steps.push_back({"wlkVulkanGetShadowMap", mapState, false});
+  steps.push_back({"wlkGetCloudShadowState", mapState, false});
   steps.push_back({"wlkEvalSky", sky, false});
   steps.push_back({"wlkEvalSkyMap", skyMap, false});
   steps.push_back({"wlkEvalAmbient", ambient, false});
@@ -391,7 +391,7 @@ void Life::addFrame(Steps& steps) {
   steps.push_back({"wlkBeginFrame", [this] { return begin(); }, true});
   steps.push_back({"wlkVulkanCmdUpdate", [this] { return record(false); }, true});
   if (kind_.targets) {
-    steps.push_back({"wlkVulkanCmdRenderShadowMap", [this] { return recordMap(); }, true});
+    steps.push_back({"wlkVulkanCmdRenderCloudShadow", [this] { return recordMap(); }, true});
   }
   steps.push_back({"wlkVulkanCmdRenderView", [this] { return record(true); }, true});
 }
@@ -415,8 +415,8 @@ void Life::addEnd(Steps& steps) {
         {"wlkDestroySurface", [this] { return wlkDestroySurface(context, surface); }, false});
   }
   if (kind_.targets) {
-    steps.push_back({"wlkVulkanDestroyShadowMap",
-                     [this] { return wlkVulkanDestroyShadowMap(context, map); }, false});
+    steps.push_back(
+        {"wlkDestroyCloudShadow", [this] { return wlkDestroyCloudShadow(context, map); }, false});
   }
   steps.push_back({"wlkDestroyView", [this] { return wlkDestroyView(context, view); }, false});
   steps.push_back(

@@ -84,7 +84,7 @@ class Life {
   WlkVolume volume{};
   WlkVolume second{};
   WlkView view{};
-  WlkShadowMap map{};
+  WlkCloudShadow map{};
   WlkSurface surface{};
 
  private:

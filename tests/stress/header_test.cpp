@@ -131,15 +131,15 @@ TEST(StructHeader, OfViewAndFrameStructuresIsCheckedBeforeAnythingChanges) {
   const auto setQuality = [&](const WlkQuality* p) { return wlkSetQuality(c, view, p); };
   const auto updateView = [&](const WlkViewInfo* p) { return wlkUpdateView(c, view, p); };
   const auto readback = [&](const WlkImageData* p) { return wlkReadback(c, view, p); };
-  const auto render = [&](const WlkHeadlessTargets* p) { return wlkRenderHeadless(c, view, p); };
+  const auto render = [&](const WlkHeadlessInputs* p) { return wlkRenderHeadless(c, view, p); };
   abuseHeader<WlkCamera>(camera, setCamera);
   abuseHeader<WlkQuality>(quality, setQuality);
   abuseHeader<WlkViewInfo>(info, updateView);
   abuseHeader<WlkImageData>(image, readback);
-  abuseHeader<WlkHeadlessTargets>(make<WlkHeadlessTargets>(), render);
+  abuseHeader<WlkHeadlessInputs>(make<WlkHeadlessInputs>(), render);
   victim.expectUnchanged();
   expectLongerAccepted<WlkImageData>(image, readback);
-  expectLongerAccepted<WlkHeadlessTargets>(make<WlkHeadlessTargets>(), render);
+  expectLongerAccepted<WlkHeadlessInputs>(make<WlkHeadlessInputs>(), render);
   expectLongerAccepted<WlkCamera>(camera, setCamera);
   expectLongerAccepted<WlkQuality>(quality, setQuality);
   expectLongerAccepted<WlkViewInfo>(info, updateView);
@@ -178,7 +178,9 @@ TEST(StructHeader, OfUploadsAndQueriesIsChecked) {
   auto mapQuery = make<WlkSkyMapQuery>();
   mapQuery.size = 4;
   mapQuery.maxOrder = 1;
-  const auto evalMap = [&](const WlkSkyMapQuery* p) { return wlkEvalSkyMap(c, p, map.data()); };
+  const auto evalMap = [&](const WlkSkyMapQuery* p) {
+    return wlkEvalSkyMap(c, p, map.data(), map.size() * sizeof(float));
+  };
   const auto evalPhase = [&](const WlkPhaseQuery* p) { return wlkEvalPhase(c, p, nullptr); };
   auto phaseQuery = make<WlkPhaseQuery>();
   phaseQuery.medium = victim.medium;
@@ -202,7 +204,7 @@ TEST(StructHeader, OfContextStructuresIsCheckedAndNoContextComesBack) {
   const auto create = [](const WlkContextInfo* p) {
     // A value that only a successful call or a failing call that resets it can change.
     auto* context = reinterpret_cast<WlkContext>(uintptr_t{16});
-    const WlkResult result = wlkCreateContext(p, &context);
+    const WlkResult result = wlkCreateContext(WLK_API_VERSION, p, &context);
     EXPECT_EQ(context == nullptr, result != WLK_SUCCESS);
     if (result == WLK_SUCCESS) {
       wlkDestroyContext(context);
@@ -213,7 +215,8 @@ TEST(StructHeader, OfContextStructuresIsCheckedAndNoContextComesBack) {
   expectLongerAccepted<WlkContextInfo>(make<WlkContextInfo>(), create);
   EXPECT_FAILS(create(nullptr), WLK_ERROR_INVALID_ARGUMENT, "WlkContextInfo");
   const auto info = make<WlkContextInfo>();
-  EXPECT_FAILS(wlkCreateContext(&info, nullptr), WLK_ERROR_INVALID_ARGUMENT, "context");
+  EXPECT_FAILS(wlkCreateContext(WLK_API_VERSION, &info, nullptr), WLK_ERROR_INVALID_ARGUMENT,
+               "context");
 
   // Chained structures have headers of their own; the chain may be circular.
   auto headless = make<WlkHeadlessInfo>();
@@ -263,7 +266,7 @@ TEST(StructHeader, InitStructWritesDefaultsWithinTheSizeItIsGiven) {
   std::array<unsigned char, 512> bytes{};
   EXPECT_FAILS(wlkInitStruct(WLK_STRUCT_SKY, sizeof(WlkSky), nullptr), WLK_ERROR_INVALID_ARGUMENT,
                "structure");
-  for (const uint32_t unknown : {0u, 5u, 53u, 1007u, 0xffffffffu}) {
+  for (const uint32_t unknown : {0u, 6u, 53u, 1004u, 0xffffffffu}) {
     EXPECT_FAILS(wlkInitStruct(unknown, 64, bytes.data()), WLK_ERROR_UNKNOWN_STRUCT, "sType");
   }
   EXPECT_FAILS(wlkInitStruct(WLK_STRUCT_SKY, sizeof(WlkSky) - 1, bytes.data()),

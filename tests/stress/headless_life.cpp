@@ -8,7 +8,7 @@ WlkResult HeadlessLife::create() {
   auto info = make<WlkContextInfo>();
   info.next = &headless;
   info.allocator = memory.callbacks();
-  return wlkCreateContext(&info, &context);
+  return wlkCreateContext(WLK_API_VERSION, &info, &context);
 }
 
 WlkResult HeadlessLife::setLights() const {

@@ -23,7 +23,7 @@ SceneOptions small() {
   SceneOptions options;
   options.width = 16;
   options.height = 12;
-  options.qualityFlags = WLK_QUALITY_LIGHT_SHADOWS;
+  options.qualityFlags = WLK_QUALITY_FLAG_LIGHT_SHADOWS;
   return options;
 }
 
@@ -95,14 +95,15 @@ class LightShadowAbuse : public ::testing::Test {
   ~LightShadowAbuse() override {
     EXPECT_TRUE(scene.messages().empty()) << scene.messages().front();
   }
-  WlkHeadlessTargets targets() const {
-    auto t = make<WlkHeadlessTargets>();
+  WlkHeadlessInputs targets() const {
+    auto t = make<WlkHeadlessInputs>();
     t.lightShadow = &shadow;
     t.shadowDepth = depth.data();
+    t.shadowDepthSize = depth.size() * sizeof(float);
     t.shadowWidth = t.shadowHeight = TEXELS;
     return t;
   }
-  WlkResult render(const WlkHeadlessTargets& t) const {
+  WlkResult render(const WlkHeadlessInputs& t) const {
     return wlkRenderHeadless(scene.context, scene.view, &t);
   }
 
@@ -121,14 +122,15 @@ TEST_F(LightShadowAbuse, WrongFieldsAreNamedAndChangeNothing) {
   shadow = validShadow();
   struct Case {
     const char* field;
-    std::function<void(WlkHeadlessTargets&)> spoil;
+    std::function<void(WlkHeadlessInputs&)> spoil;
   };
-  using T = WlkHeadlessTargets;
+  using T = WlkHeadlessInputs;
   const std::vector<Case> cases{{"shadowDepth", [](T& t) { t.shadowDepth = nullptr; }},
+                                {"shadowDepthSize", [](T& t) { t.shadowDepthSize = 4; }},
                                 {"shadowWidth", [](T& t) { t.shadowWidth = 0; }},
                                 {"shadowHeight", [](T& t) { t.shadowHeight = 8193; }}};
   for (const Case& test : cases) {
-    WlkHeadlessTargets bad = targets();
+    WlkHeadlessInputs bad = targets();
     test.spoil(bad);
     EXPECT_FAILS(render(bad), WLK_ERROR_INVALID_ARGUMENT, test.field);
   }

@@ -20,7 +20,7 @@ class MemoryLimit : public ::testing::Test {
     info.next = &device;
     info.deviceMemoryLimit = limit;
     WlkContext context = nullptr;
-    result = wlkCreateContext(&info, &context);
+    result = wlkCreateContext(WLK_API_VERSION, &info, &context);
     return context;
   }
 

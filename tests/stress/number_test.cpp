@@ -103,10 +103,10 @@ TEST(NumberFields, OfAbsorbersAreRefusedOrHarmless) {
   const WlkContext c = VictimScene::get().scene.context;
   auto absorber = make<WlkAbsorber>();
   absorber.peakAltitude = 15000.0f;
-  absorber.extinction[1] = 1e-4f;
+  absorber.absorption[1] = 1e-4f;
   abuseNumbers<WlkAbsorber>(
       absorber,
-      {FLOATS(WlkAbsorber, extinction, 3), FLOATS(WlkAbsorber, peakAltitude, 1),
+      {FLOATS(WlkAbsorber, absorption, 3), FLOATS(WlkAbsorber, peakAltitude, 1),
        FLOATS(WlkAbsorber, halfWidth, 1)},
       [&](const WlkAbsorber& p) { return wlkSetAbsorber(c, &p); },
       [&] {
@@ -127,7 +127,9 @@ TEST(NumberFields, OfAmbientLightAreRefusedOrHarmless) {
        FLOATS(WlkAmbient, harmonics, WLK_AMBIENT_VALUES)},
       [&](const WlkAmbient& p) { return wlkSetAmbient(c, &p); },
       [&] {
-        ASSERT_EQ(wlkSetAmbient(c, nullptr), WLK_SUCCESS);
+        auto off = make<WlkAmbient>();
+        off.mode = WLK_AMBIENT_OFF;
+        ASSERT_EQ(wlkSetAmbient(c, &off), WLK_SUCCESS);
         ASSERT_EQ(wlkPrepare(c), WLK_SUCCESS);
       });
 }

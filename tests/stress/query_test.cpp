@@ -345,7 +345,8 @@ TEST(QuerySkyMap, ExtremesAreFiniteAndBadQueriesRefused) {
       for (const auto& point : extremePoints()) {
         for (query.maxOrder = 0; query.maxOrder < 2; ++query.maxOrder) {
           std::copy(point.begin(), point.end(), query.position);
-          ASSERT_EQ(wlkEvalSkyMap(scene.context, &query, rgb.data()), WLK_SUCCESS);
+          ASSERT_EQ(wlkEvalSkyMap(scene.context, &query, rgb.data(), rgb.size() * sizeof(float)),
+                    WLK_SUCCESS);
           for (const float one : rgb) {
             // Fog's forward peak is the largest: 1e3 per sr.
             ASSERT_TRUE(one >= 0 && one <= 1e4f) << one;
@@ -358,7 +359,8 @@ TEST(QuerySkyMap, ExtremesAreFiniteAndBadQueriesRefused) {
   std::fill_n(light.irradiance, 3, std::numeric_limits<float>::max());
   if (wlkSetLights(scene.context, 1, sizeof light, &light) == WLK_SUCCESS) {
     query.maxOrder = 0;
-    ASSERT_EQ(wlkEvalSkyMap(scene.context, &query, rgb.data()), WLK_SUCCESS);
+    ASSERT_EQ(wlkEvalSkyMap(scene.context, &query, rgb.data(), rgb.size() * sizeof(float)),
+              WLK_SUCCESS);
     for (const float one : rgb) {
       ASSERT_TRUE(std::isfinite(one));
     }
@@ -379,14 +381,16 @@ TEST(QuerySkyMap, ExtremesAreFiniteAndBadQueriesRefused) {
     auto bad = make<WlkSkyMapQuery>();
     bad.size = 4;
     test.spoil(bad);
-    EXPECT_FAILS(wlkEvalSkyMap(scene.context, &bad, rgb.data()), WLK_ERROR_INVALID_ARGUMENT,
-                 test.field);
+    EXPECT_FAILS(wlkEvalSkyMap(scene.context, &bad, rgb.data(), rgb.size() * sizeof(float)),
+                 WLK_ERROR_INVALID_ARGUMENT, test.field);
     EXPECT_EQ(rgb, untouched);
   }
-  EXPECT_FAILS(wlkEvalSkyMap(scene.context, nullptr, rgb.data()), WLK_ERROR_INVALID_ARGUMENT,
-               "WlkSkyMapQuery");
+  EXPECT_FAILS(wlkEvalSkyMap(scene.context, nullptr, rgb.data(), rgb.size() * sizeof(float)),
+               WLK_ERROR_INVALID_ARGUMENT, "WlkSkyMapQuery");
   query = make<WlkSkyMapQuery>();
-  EXPECT_FAILS(wlkEvalSkyMap(scene.context, &query, nullptr), WLK_ERROR_INVALID_ARGUMENT, "rgb");
+  EXPECT_FAILS(wlkEvalSkyMap(scene.context, &query, rgb.data(), rgb.size() * sizeof(float) - 1),
+               WLK_ERROR_INVALID_ARGUMENT, "rgbSize");
+  EXPECT_FAILS(wlkEvalSkyMap(scene.context, &query, nullptr, 0), WLK_ERROR_INVALID_ARGUMENT, "rgb");
 }
 
 TEST(QueryRandom, AnyAtmosphereGivesFiniteLight) {

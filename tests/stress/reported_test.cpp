@@ -16,8 +16,9 @@ TEST(Reported, BlackPicturesAreNoTrouble) {
   const HeadlessScene scene;
   scene.addBall(0.01f);
   const std::vector<float> black(size_t{scene.options().width} * scene.options().height * 4, 0.0f);
-  auto targets = make<WlkHeadlessTargets>();
+  auto targets = make<WlkHeadlessInputs>();
   targets.color = black.data();
+  targets.colorSize = black.size() * sizeof(float);
   const Image dark = scene.render(&targets);
   EXPECT_EQ(dark.badValues(), 0u);
   EXPECT_EQ(dark.mean(), 0);
@@ -124,8 +125,9 @@ TEST(Reported, NoStripeOnObjectsAtTheHorizon) {
     const double depth = (static_cast<double>(m[10]) * -distance + static_cast<double>(m[14])) /
                          (static_cast<double>(m[11]) * -distance + static_cast<double>(m[15]));
     const std::vector<float> pixels(size_t{options.width} * rows, static_cast<float>(depth));
-    auto targets = make<WlkHeadlessTargets>();
+    auto targets = make<WlkHeadlessInputs>();
     targets.depth = pixels.data();
+    targets.depthSize = pixels.size() * sizeof(float);
     scene.setCamera({0, 100, 0}, 0, 0);
     return scene.render(&targets);
   };

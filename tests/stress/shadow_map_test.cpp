@@ -9,7 +9,7 @@
 namespace welkin::test {
 namespace {
 
-using Info = WlkShadowMapInfo;
+using Info = WlkCloudShadowInfo;
 
 Info small() {
   auto info = make<Info>();
@@ -45,7 +45,7 @@ class ShadowMapAbuse : public ::testing::Test {
     s.scene.device().run([&](VkCommandBuffer commands) {
       check(wlkVulkanCmdUpdate(s.scene.context, commands));
       SpyDevice::counts() = {};
-      result = wlkVulkanCmdRenderShadowMap(s.scene.context, commands, s.map, image);
+      result = wlkVulkanCmdRenderCloudShadow(s.scene.context, commands, s.map, image);
       EXPECT_EQ(SpyDevice::counts().dispatches + SpyDevice::counts().barriers, 0u);
     });
     return result;
@@ -77,40 +77,38 @@ TEST_F(ShadowMapAbuse, FieldsOutOfRangeAreNamedAndChangeNothing) {
   for (const Case& test : cases) {
     Info info = small();
     test.spoil(info);
-    WlkShadowMap made{};
-    EXPECT_FAILS(wlkVulkanCreateShadowMap(s.scene.context, &info, &made),
-                 WLK_ERROR_INVALID_ARGUMENT, test.field);
+    WlkCloudShadow made{};
+    EXPECT_FAILS(wlkCreateCloudShadow(s.scene.context, &info, &made), WLK_ERROR_INVALID_ARGUMENT,
+                 test.field);
     EXPECT_EQ(made.id, 0u);
-    EXPECT_FAILS(wlkVulkanSetShadowMap(s.scene.context, s.map, &info), WLK_ERROR_INVALID_ARGUMENT,
+    EXPECT_FAILS(wlkSetCloudShadow(s.scene.context, s.map, &info), WLK_ERROR_INVALID_ARGUMENT,
                  test.field);
   }
-  abuseHeader<Info>(small(), [&](const Info* info) {
-    return wlkVulkanSetShadowMap(s.scene.context, s.map, info);
-  });
+  abuseHeader<Info>(
+      small(), [&](const Info* info) { return wlkSetCloudShadow(s.scene.context, s.map, info); });
   const Info info = small();
-  EXPECT_FAILS(wlkVulkanCreateShadowMap(s.scene.context, &info, nullptr),
-               WLK_ERROR_INVALID_ARGUMENT, "map");
+  EXPECT_FAILS(wlkCreateCloudShadow(s.scene.context, &info, nullptr), WLK_ERROR_INVALID_ARGUMENT,
+               "map");
   EXPECT_EQ(s.record().state.reason, uint32_t{WLK_REASON_UNCHANGED});
 }
 
 TEST_F(ShadowMapAbuse, HandlesThatAreNoMapAreRefused) {
   const Info info = small();
-  auto state = make<WlkShadowMapState>();
+  auto state = make<WlkCloudShadowState>();
   for (const uint64_t id : {uint64_t{0}, volume.id, s.scene.view.id, s.map.id + (1 << 24)}) {
-    const WlkShadowMap bad{id};
-    EXPECT_FAILS(wlkVulkanSetShadowMap(s.scene.context, bad, &info), WLK_ERROR_INVALID_HANDLE,
+    const WlkCloudShadow bad{id};
+    EXPECT_FAILS(wlkSetCloudShadow(s.scene.context, bad, &info), WLK_ERROR_INVALID_HANDLE, "map");
+    EXPECT_FAILS(wlkGetCloudShadowState(s.scene.context, bad, &state), WLK_ERROR_INVALID_HANDLE,
                  "map");
-    EXPECT_FAILS(wlkVulkanGetShadowMap(s.scene.context, bad, &state), WLK_ERROR_INVALID_HANDLE,
-                 "map");
-    EXPECT_FAILS(wlkVulkanDestroyShadowMap(s.scene.context, bad), WLK_ERROR_INVALID_HANDLE, "map");
+    EXPECT_FAILS(wlkDestroyCloudShadow(s.scene.context, bad), WLK_ERROR_INVALID_HANDLE, "map");
   }
-  EXPECT_FAILS(wlkVulkanGetShadowMap(s.scene.context, s.map, nullptr), WLK_ERROR_INVALID_ARGUMENT,
-               "WlkShadowMapState");
-  WlkShadowMap fresh{};
-  check(wlkVulkanCreateShadowMap(s.scene.context, &info, &fresh));
-  EXPECT_EQ(wlkVulkanGetShadowMap(s.scene.context, fresh, &state), WLK_NOT_READY);
-  check(wlkVulkanDestroyShadowMap(s.scene.context, fresh));
-  EXPECT_FAILS(wlkVulkanDestroyShadowMap(s.scene.context, fresh), WLK_ERROR_INVALID_HANDLE, "map");
+  EXPECT_FAILS(wlkGetCloudShadowState(s.scene.context, s.map, nullptr), WLK_ERROR_INVALID_ARGUMENT,
+               "WlkCloudShadowState");
+  WlkCloudShadow fresh{};
+  check(wlkCreateCloudShadow(s.scene.context, &info, &fresh));
+  EXPECT_EQ(wlkGetCloudShadowState(s.scene.context, fresh, &state), WLK_NOT_READY);
+  check(wlkDestroyCloudShadow(s.scene.context, fresh));
+  EXPECT_FAILS(wlkDestroyCloudShadow(s.scene.context, fresh), WLK_ERROR_INVALID_HANDLE, "map");
 }
 
 TEST_F(ShadowMapAbuse, ImagesThatDoNotFitAreRefused) {
@@ -134,17 +132,17 @@ TEST_F(ShadowMapAbuse, ImagesThatDoNotFitAreRefused) {
 TEST_F(ShadowMapAbuse, CallsOutOfOrderAreRefused) {
   s.scene.device().run([&](VkCommandBuffer commands) {
     // The constructor's frame is still the context's last.
-    EXPECT_FAILS(wlkVulkanCmdRenderShadowMap(s.scene.context, commands, s.map, &s.described),
+    EXPECT_FAILS(wlkVulkanCmdRenderCloudShadow(s.scene.context, commands, s.map, &s.described),
                  WLK_ERROR_WRONG_STATE, "map");
   });
   Info info = small();
   info.width = 32;
-  check(wlkVulkanSetShadowMap(s.scene.context, s.map, &info));
+  check(wlkSetCloudShadow(s.scene.context, s.map, &info));
   WlkVulkanImage wider = s.described;
   wider.width = 32;
   EXPECT_EQ(render(&wider), WLK_ERROR_NOT_PREPARED);
   info = small();
-  check(wlkVulkanSetShadowMap(s.scene.context, s.map, &info));
+  check(wlkSetCloudShadow(s.scene.context, s.map, &info));
   EXPECT_EQ(render(&s.described), WLK_ERROR_NOT_PREPARED);
   check(wlkPrepare(s.scene.context));
   s.scene.addBall(0.01f);
@@ -154,16 +152,16 @@ TEST_F(ShadowMapAbuse, CallsOutOfOrderAreRefused) {
 TEST(ShadowMapModes, NeedAnEngineDevice) {
   WlkContext context = nullptr;
   const auto cpu = make<WlkContextInfo>();
-  check(wlkCreateContext(&cpu, &context));
+  check(wlkCreateContext(WLK_API_VERSION, &cpu, &context));
   const Info info = small();
-  WlkShadowMap map{};
-  EXPECT_EQ(wlkVulkanCreateShadowMap(context, &info, &map), WLK_ERROR_WRONG_STATE);
+  WlkCloudShadow map{};
+  EXPECT_EQ(wlkCreateCloudShadow(context, &info, &map), WLK_ERROR_WRONG_STATE);
   wlkDestroyContext(context);
 }
 
 // Far away, thin, flat, dense, through the volume's faces and edges: finite, never negative.
 TEST(ShadowMapExtremes, AreFinite) {
-  for (const uint32_t content : {WLK_SHADOW_OPTICAL_DEPTH, WLK_SHADOW_LAYER}) {
+  for (const uint32_t content : {WLK_CLOUD_SHADOW_OPTICAL_DEPTH, WLK_CLOUD_SHADOW_LAYER}) {
     for (const bool half : {false, true}) {
       Info info = small();
       info.content = content;

@@ -102,7 +102,7 @@ class SoakOf : public ::testing::TestWithParam<Moving> {
     auto quality = make<WlkQuality>();
     quality.level = WLK_QUALITY_LOW;
     quality.volumeCells = 8;
-    quality.flags = GetParam() == Moving::Shadows ? uint64_t{WLK_QUALITY_VOLUME_SHADOWS} : 0;
+    quality.flags = GetParam() == Moving::Shadows ? uint64_t{WLK_QUALITY_FLAG_VOLUME_SHADOWS} : 0;
     quality.lightFrames = GetParam() == Moving::Spread ? 4 : 1;
     quality.volumeResolution = GetParam() == Moving::Half ? WLK_VOLUME_RESOLUTION_HALF : 0;
     check(wlkSetQuality(scene.context, scene.view, &quality));
@@ -179,7 +179,7 @@ TEST(Determinism, PicturesDoNotDependOnTheNumberOfThreads) {
     options.width = 48;
     options.height = 27;
     options.level = WLK_QUALITY_HIGH;
-    options.qualityFlags = WLK_QUALITY_VOLUME_SHADOWS;
+    options.qualityFlags = WLK_QUALITY_FLAG_VOLUME_SHADOWS;
     const HeadlessScene scene(options);
     scene.setSky();
     scene.setFog(2e-4f, 300.0f);

@@ -76,7 +76,7 @@ std::vector<double> answers(size_t seed) {
   auto map = make<WlkSkyMapQuery>();
   map.size = 4;
   float rgb[4 * 4 * 3] = {};
-  check(wlkEvalSkyMap(cpu.context, &map, rgb));
+  check(wlkEvalSkyMap(cpu.context, &map, rgb, sizeof rgb));
   all.insert(all.end(), rgb, rgb + std::size(rgb));
   return all;
 }

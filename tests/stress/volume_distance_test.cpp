@@ -23,7 +23,7 @@ class DistanceAbuse : public ::testing::Test {
     EXPECT_EQ(s.at(MIDDLE), before);
   }
   WlkResult set(uint32_t enabled) {
-    return wlkVulkanSetVolumeDistance(s.scene.context, s.scene.view, enabled);
+    return wlkSetVolumeDistance(s.scene.context, s.scene.view, enabled);
   }
   // The frame's code with a spoilt image; nothing may be recorded.
   WlkResult render(const std::function<void(WlkVulkanImage&)>& spoil) {
@@ -64,8 +64,7 @@ TEST_F(DistanceAbuse, CallsOutOfOrderAreRefused) {
   EXPECT_FAILS(set(2), WLK_ERROR_INVALID_ARGUMENT, "enabled");
   EXPECT_FAILS(set(0xffffffff), WLK_ERROR_INVALID_ARGUMENT, "enabled");
   for (const uint64_t id : {uint64_t{0}, s.scene.view.id + (1 << 24)}) {
-    EXPECT_FAILS(wlkVulkanSetVolumeDistance(s.scene.context, {id}, 1), WLK_ERROR_INVALID_HANDLE,
-                 "view");
+    EXPECT_FAILS(wlkSetVolumeDistance(s.scene.context, {id}, 1), WLK_ERROR_INVALID_HANDLE, "view");
   }
   const auto nothing = [](WlkVulkanImage&) {};
   check(set(0));
@@ -79,7 +78,7 @@ TEST_F(DistanceAbuse, CallsOutOfOrderAreRefused) {
 
 TEST(DistanceModes, NeedAnEngineDevice) {
   const CpuContext cpu;
-  EXPECT_FAILS(wlkVulkanSetVolumeDistance(cpu.context, {}, 1), WLK_ERROR_WRONG_STATE, "context");
+  EXPECT_FAILS(wlkSetVolumeDistance(cpu.context, {}, 1), WLK_ERROR_WRONG_STATE, "context");
 }
 
 // Eyes inside and far from volumes as dense as they get and nearly empty: between the nearest and

@@ -95,6 +95,7 @@ TEST(EngineDeviceAbuse, EveryFieldOfTheDeviceIsChecked) {
       {"apiVersion", WLK_ERROR_MISSING_FEATURE, [](D& d) { d.apiVersion = 0; }},
       {"apiVersion", WLK_ERROR_MISSING_FEATURE,
        [](D& d) { d.apiVersion = VK_MAKE_API_VERSION(0, 1, 2, 198); }},
+      {"enabledFeatures", WLK_ERROR_INVALID_ARGUMENT, [](D& d) { d.enabledFeatures = 2; }},
       {"queueFamilyIndex", WLK_ERROR_INVALID_ARGUMENT, [](D& d) { d.queueFamilyIndex = 99; }}};
   for (const Case& test : cases) {
     WlkVulkanDeviceInfo device = describeDevice(spy);
@@ -102,7 +103,7 @@ TEST(EngineDeviceAbuse, EveryFieldOfTheDeviceIsChecked) {
     auto info = make<WlkContextInfo>();
     info.next = &device;
     WlkContext context = nullptr;
-    EXPECT_FAILS(wlkCreateContext(&info, &context), test.code, test.field);
+    EXPECT_FAILS(wlkCreateContext(WLK_API_VERSION, &info, &context), test.code, test.field);
     EXPECT_EQ(context, nullptr);
   }
   // The header of a chained structure, by the rules of all others.
@@ -115,12 +116,14 @@ TEST(EngineDeviceAbuse, EveryFieldOfTheDeviceIsChecked) {
   info.next = &device;
   WlkContext context = nullptr;
   device.known.structSize -= 1;
-  EXPECT_FAILS(wlkCreateContext(&info, &context), WLK_ERROR_INVALID_ARGUMENT, "structSize");
+  EXPECT_FAILS(wlkCreateContext(WLK_API_VERSION, &info, &context), WLK_ERROR_INVALID_ARGUMENT,
+               "structSize");
   device.known.structSize = sizeof device;
   device.tail[7] = 1;
-  EXPECT_FAILS(wlkCreateContext(&info, &context), WLK_ERROR_STRUCT_TOO_NEW, "structSize");
+  EXPECT_FAILS(wlkCreateContext(WLK_API_VERSION, &info, &context), WLK_ERROR_STRUCT_TOO_NEW,
+               "structSize");
   device.tail[7] = 0;
-  EXPECT_EQ(wlkCreateContext(&info, &context), WLK_SUCCESS);
+  EXPECT_EQ(wlkCreateContext(WLK_API_VERSION, &info, &context), WLK_SUCCESS);
   wlkDestroyContext(context);
   EXPECT_TRUE(spy.messages().empty()) << spy.messages().front();
 }
@@ -133,7 +136,7 @@ TEST(EngineDeviceAbuse, AMissingFunctionIsNamedAndNothingLeaks) {
     auto info = make<WlkContextInfo>();
     info.next = &device;
     WlkContext context = nullptr;
-    ASSERT_EQ(wlkCreateContext(&info, &context), WLK_SUCCESS);
+    ASSERT_EQ(wlkCreateContext(WLK_API_VERSION, &info, &context), WLK_SUCCESS);
     wlkDestroyContext(context);
     names.assign(SpyDevice::namesAsked().begin(), SpyDevice::namesAsked().end());
     names.emplace_back("vkGetDeviceProcAddr");
@@ -149,7 +152,8 @@ TEST(EngineDeviceAbuse, AMissingFunctionIsNamedAndNothingLeaks) {
     info.next = &device;
     info.allocator = memory.callbacks();
     WlkContext context = nullptr;
-    EXPECT_EQ(wlkCreateContext(&info, &context), WLK_ERROR_MISSING_FEATURE) << name;
+    EXPECT_EQ(wlkCreateContext(WLK_API_VERSION, &info, &context), WLK_ERROR_MISSING_FEATURE)
+        << name;
     // "vkCreateImage" hides "vkCreateImageView" as well: the first one missed is named.
     EXPECT_EQ(std::string(lastError().field).rfind(name, 0), 0u) << lastError().field;
     EXPECT_EQ(context, nullptr);
@@ -211,7 +215,7 @@ TEST_F(EngineAbuse, RecordingNeedsAFrameACommandBufferAndAPreparedView) {
   auto info = make<WlkContextInfo>();
   info.next = &device;
   WlkContext other = nullptr;
-  ASSERT_EQ(wlkCreateContext(&info, &other), WLK_SUCCESS);
+  ASSERT_EQ(wlkCreateContext(WLK_API_VERSION, &info, &other), WLK_SUCCESS);
   expectFailure([&](VkCommandBuffer commands) { return wlkVulkanCmdUpdate(other, commands); },
                 WLK_ERROR_WRONG_STATE, "context");
   wlkDestroyContext(other);
@@ -253,6 +257,14 @@ TEST_F(EngineAbuse, WrongTargetsAreNamedAndTheRightOnesStillWork) {
        [](I& i) { i.after.layout = VK_IMAGE_LAYOUT_UNDEFINED; }},
       {"color", WLK_ERROR_INVALID_ARGUMENT,
        [](I& i) { i.after.layout = VK_IMAGE_LAYOUT_PREINITIALIZED; }},
+      {"color", WLK_ERROR_INVALID_ARGUMENT, [](I& i) { i.depth = 2; }},
+      {"mipLevel", WLK_ERROR_INVALID_ARGUMENT, [](I& i) { i.mipLevel = 32; }},
+      {"baseArrayLayer", WLK_ERROR_INVALID_ARGUMENT, [](I& i) { i.baseArrayLayer = 65536; }},
+      {"layerCount", WLK_ERROR_INVALID_ARGUMENT, [](I& i) { i.layerCount = 0; }},
+      {"layerCount", WLK_ERROR_INVALID_ARGUMENT, [](I& i) { i.layerCount = 2; }},
+      {"reserved0", WLK_ERROR_INVALID_ARGUMENT, [](I& i) { i.reserved0 = 1; }},
+      {"before.reserved0", WLK_ERROR_INVALID_ARGUMENT, [](I& i) { i.before.reserved0 = 1; }},
+      {"after.reserved0", WLK_ERROR_INVALID_ARGUMENT, [](I& i) { i.after.reserved0 = 1; }},
       {"sType", WLK_ERROR_UNKNOWN_STRUCT, [](I& i) { i.sType = WLK_STRUCT_SKY; }},
       {"structSize", WLK_ERROR_INVALID_ARGUMENT, [](I& i) { i.structSize = 16; }}};
   beginFrame();
@@ -297,7 +309,7 @@ TEST_F(EngineAbuse, WrongVolumeImagesAreRefusedAndTheUploadedOneStays) {
   const std::vector<Case> cases{
       {"volume image", WLK_ERROR_INVALID_ARGUMENT, [](I& i) { i.image = VK_NULL_HANDLE; }},
       {"volume image", WLK_ERROR_INVALID_ARGUMENT, [](I& i) { i.width = 9; }},
-      {"depth", WLK_ERROR_INVALID_ARGUMENT, [](I& i) { i.depth = 1; }},
+      {"volume image", WLK_ERROR_INVALID_ARGUMENT, [](I& i) { i.depth = 1; }},
       {"format", WLK_ERROR_UNSUPPORTED_FORMAT, [](I& i) { i.format = VK_FORMAT_R8_UINT; }},
       {"before", WLK_ERROR_INVALID_ARGUMENT,
        [](I& i) { i.before.layout = VK_IMAGE_LAYOUT_UNDEFINED; }},
@@ -350,14 +362,52 @@ TEST_F(EngineAbuse, GarbageInTheEnginesVolumeImageGivesAFinitePicture) {
   ASSERT_EQ(wlkVulkanForgetImage(scene.context, voxels.handle), WLK_SUCCESS);
 }
 
+VkInstance describedInstance = VK_NULL_HANDLE;
+
+// Of a device that can do all but what `missing` points to.
+VkBool32 VkPhysicalDeviceFeatures::*missing = nullptr;
+VKAPI_ATTR void VKAPI_CALL featuresWithout(VkPhysicalDevice device,
+                                           VkPhysicalDeviceFeatures* features) {
+  reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures>(
+      vkGetInstanceProcAddr(describedInstance, "vkGetPhysicalDeviceFeatures"))(device, features);
+  features->*missing = VK_FALSE;
+}
+PFN_vkVoidFunction VKAPI_CALL loaderWithout(VkInstance instance, const char* name) {
+  if (std::strcmp(name, "vkGetPhysicalDeviceFeatures") == 0) {
+    return reinterpret_cast<PFN_vkVoidFunction>(featuresWithout);
+  }
+  return SpyDevice::getInstanceProcAddr()(instance, name);
+}
+
+TEST(EngineDeviceAbuse, BlendNeedsBothFeaturesOfTheDevice) {
+  const SpyDevice spy;
+  describedInstance = spy.instance;
+  for (VkBool32 VkPhysicalDeviceFeatures::*feature :
+       {&VkPhysicalDeviceFeatures::dualSrcBlend,
+        &VkPhysicalDeviceFeatures::fragmentStoresAndAtomics}) {
+    missing = feature;
+    WlkVulkanDeviceInfo device = describeDevice(spy);
+    device.getInstanceProcAddr = loaderWithout;
+    device.enabledFeatures = WLK_VULKAN_FEATURE_BLEND;
+    auto info = make<WlkContextInfo>();
+    info.next = &device;
+    WlkContext context = nullptr;
+    EXPECT_FAILS(wlkCreateContext(WLK_API_VERSION, &info, &context), WLK_ERROR_MISSING_FEATURE,
+                 "enabledFeatures");
+    device.enabledFeatures = 0;
+    EXPECT_EQ(wlkCreateContext(WLK_API_VERSION, &info, &context), WLK_SUCCESS);
+    wlkDestroyContext(context);
+  }
+}
+
 TEST(EngineDeviceAbuse, BlendNeedsTheFeatureThatTheEngineNames) {
   const SpyDevice spy;
   WlkVulkanDeviceInfo device = describeDevice(spy);
-  device.dualSrcBlendEnabled = 0;
+  device.enabledFeatures = 0;
   auto info = make<WlkContextInfo>();
   info.next = &device;
   WlkContext context = nullptr;
-  ASSERT_EQ(wlkCreateContext(&info, &context), WLK_SUCCESS);
+  ASSERT_EQ(wlkCreateContext(WLK_API_VERSION, &info, &context), WLK_SUCCESS);
   auto view = make<WlkViewInfo>();
   view.composite = WLK_COMPOSITE_BLEND;
   WlkView made{};

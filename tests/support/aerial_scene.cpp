@@ -48,7 +48,7 @@ AerialScene::AerialScene(const WlkAerialPerspective& info_, const SceneOptions& 
     picture_[i]->write(VK_IMAGE_LAYOUT_GENERAL);
     pictureImages_[i] = scene.describe(*picture_[i], VK_IMAGE_LAYOUT_GENERAL);
   }
-  check(wlkVulkanSetAerialPerspective(scene.context, scene.view, &info));
+  check(wlkSetAerialPerspective(scene.context, scene.view, &info));
   scene.addTargets = [this](WlkVulkanViewTargets& targets) {
     targets.radiance = &pictureImages_[0];
     targets.transmittance = &pictureImages_[1];

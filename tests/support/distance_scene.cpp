@@ -31,7 +31,7 @@ DistanceScene::DistanceScene(VkFormat format)
   described = scene.describe(image_, VK_IMAGE_LAYOUT_GENERAL);
   depthDescribed_ = scene.describe(depth_, VK_IMAGE_LAYOUT_GENERAL);
   scene.setCamera({0, 0, 0}, 0, 0);
-  check(wlkVulkanSetVolumeDistance(scene.context, scene.view, 1));
+  check(wlkSetVolumeDistance(scene.context, scene.view, 1));
   scene.addTargets = [this](WlkVulkanViewTargets& targets) {
     targets.volumeDistance = asked ? &described : nullptr;
     targets.depth = wall > 0 ? &depthDescribed_ : nullptr;

@@ -35,7 +35,7 @@ WlkVulkanDeviceInfo describeDevice(const SpyDevice& spy) {
 EngineScene::EngineScene(const SceneOptions& options)
     : SpiedEngine(options.validation), SceneBuilder(options) {
   auto info = describeDevice(spy);
-  info.dualSrcBlendEnabled = 1;
+  info.enabledFeatures = WLK_VULKAN_FEATURE_BLEND;
   create(&info);
   target_.emplace(spy, formatOf(options.targetFormat), VkExtent3D{options.width, options.height, 1},
                   VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |

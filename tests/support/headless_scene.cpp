@@ -9,9 +9,9 @@
 namespace welkin::test {
 namespace {
 
-void keepMessage(void* user, uint32_t severity, const char* text) {
-  if (severity != WLK_LOG_INFO) {
-    static_cast<std::vector<std::string>*>(user)->emplace_back(text);
+void keepMessage(void* user, const WlkLogMessage* message) {
+  if (message->id == WLK_LOG_ID_VALIDATION) {
+    static_cast<std::vector<std::string>*>(user)->emplace_back(message->text);
   }
 }
 
@@ -78,9 +78,11 @@ void SceneBuilder::create(const void* chained) {
   info.allocator = options_.allocator;
   info.log = keepMessage;
   info.logUser = messages_.get();
-  check(wlkCreateContext(&info, &context));
+  check(wlkCreateContext(WLK_API_VERSION, &info, &context));
   if (!options_.ambient) {
-    check(wlkSetAmbient(context, nullptr));
+    auto off = make<WlkAmbient>();
+    off.mode = WLK_AMBIENT_OFF;
+    check(wlkSetAmbient(context, &off));
   }
   if (options_.view) {
     view = addView(options_);
@@ -230,7 +232,7 @@ void SceneBuilder::setQuality(uint32_t level, uint64_t flags) const {
   check(wlkSetQuality(context, view, &quality));
 }
 
-Image HeadlessScene::render(const WlkHeadlessTargets* targets) const {
+Image HeadlessScene::render(const WlkHeadlessInputs* targets) const {
   check(wlkPrepare(context));
   check(wlkRenderHeadless(context, view, targets));
   return read(options_.composite == WLK_COMPOSITE_SEPARATE ? WLK_IMAGE_RADIANCE : WLK_IMAGE_COLOR);

@@ -112,7 +112,7 @@ class HeadlessScene : public SceneBuilder {
   explicit HeadlessScene(const SceneOptions& options = {});
 
   // wlkPrepare, wlkRenderHeadless and wlkReadback.
-  Image render(const WlkHeadlessTargets* targets = nullptr) const;
+  Image render(const WlkHeadlessInputs* targets = nullptr) const;
   Image read(uint32_t image) const;
 };
 

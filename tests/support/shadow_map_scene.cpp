@@ -17,10 +17,10 @@ SceneOptions tiny() {
 
 }  // namespace
 
-ShadowMapScene::ShadowMapScene(const WlkShadowMapInfo& info, bool half)
+ShadowMapScene::ShadowMapScene(const WlkCloudShadowInfo& info, bool half)
     : scene(tiny()), info_(info), half_(half) {
   scene.setSun(90, 0);
-  check(wlkVulkanCreateShadowMap(scene.context, &info, &map));
+  check(wlkCreateCloudShadow(scene.context, &info, &map));
   replaceImage();
 }
 
@@ -32,7 +32,7 @@ void ShadowMapScene::replaceImage() {
   if (image_) {
     check(wlkVulkanForgetImage(scene.context, image_->handle));
   }
-  const bool one = info_.content == WLK_SHADOW_OPTICAL_DEPTH;
+  const bool one = info_.content == WLK_CLOUD_SHADOW_OPTICAL_DEPTH;
   const VkFormat format =
       one ? (half_ ? VK_FORMAT_R16_SFLOAT : VK_FORMAT_R32_SFLOAT)
           : (half_ ? VK_FORMAT_R16G16B16A16_SFLOAT : VK_FORMAT_R32G32B32A32_SFLOAT);
@@ -54,18 +54,18 @@ ShadowFrame ShadowMapScene::record() {
   scene.device().run([&](VkCommandBuffer commands) {
     check(wlkVulkanCmdUpdate(scene.context, commands));
     SpyDevice::counts() = {};
-    check(wlkVulkanCmdRenderShadowMap(scene.context, commands, map, &described));
+    check(wlkVulkanCmdRenderCloudShadow(scene.context, commands, map, &described));
     result.counts = SpyDevice::counts();
   });
-  result.state = make<WlkShadowMapState>();
-  check(wlkVulkanGetShadowMap(scene.context, map, &result.state));
+  result.state = make<WlkCloudShadowState>();
+  check(wlkGetCloudShadowState(scene.context, map, &result.state));
   return result;
 }
 
 std::vector<float> ShadowMapScene::read() const {
   image_->read(VK_IMAGE_LAYOUT_GENERAL);
   const size_t texels = size_t{info_.width} * info_.height;
-  const size_t channels = info_.content == WLK_SHADOW_OPTICAL_DEPTH ? 1 : 4;
+  const size_t channels = info_.content == WLK_CLOUD_SHADOW_OPTICAL_DEPTH ? 1 : 4;
   std::vector<float> values(4 * texels);
   const auto* bytes = static_cast<const unsigned char*>(image_->bytes());
   for (size_t i = 0; i < texels * channels; ++i) {

@@ -6,22 +6,22 @@
 
 namespace welkin::test {
 
-// What a wlkVulkanCmdRenderShadowMap recorded, by the spy and by the library.
+// What a wlkVulkanCmdRenderCloudShadow recorded, by the spy and by the library.
 struct ShadowFrame {
   VulkanCounts counts;
-  WlkShadowMapState state;
+  WlkCloudShadowState state;
 };
 
 class ShadowMapScene {
  public:
   // 32-bit floats unless `half`.
-  explicit ShadowMapScene(const WlkShadowMapInfo& info, bool half = false);
+  explicit ShadowMapScene(const WlkCloudShadowInfo& info, bool half = false);
   ~ShadowMapScene();
   ShadowMapScene(const ShadowMapScene&) = delete;
   ShadowMapScene& operator=(const ShadowMapScene&) = delete;
 
   EngineScene scene;  // without sky or volumes, the sun at the zenith
-  WlkShadowMap map{};
+  WlkCloudShadow map{};
   WlkVulkanImage described{};
   uint32_t images = 0;  // made so far
 
@@ -33,7 +33,7 @@ class ShadowMapScene {
   std::vector<float> read() const;
 
  private:
-  WlkShadowMapInfo info_;
+  WlkCloudShadowInfo info_;
   bool half_;
   std::optional<SpyImage> image_;
   uint64_t frame_ = 0;

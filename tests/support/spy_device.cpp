@@ -212,6 +212,7 @@ void SpyDevice::createDevice() {
   features.pNext = &features13;
   features.features.shaderStorageImageWriteWithoutFormat = VK_TRUE;
   features.features.dualSrcBlend = VK_TRUE;
+  features.features.fragmentStoresAndAtomics = VK_TRUE;
   const float priority = 1.0f;
   VkDeviceQueueCreateInfo queueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
   queueInfo.queueFamilyIndex = family;  // lavapipe has one family, which does everything

@@ -23,7 +23,7 @@ struct Context {
   Context() {
     WlkContextInfo info;
     wlkInitStruct(WLK_STRUCT_CONTEXT_INFO, sizeof info, &info);
-    EXPECT_EQ(wlkCreateContext(&info, &handle), WLK_SUCCESS);
+    EXPECT_EQ(wlkCreateContext(WLK_API_VERSION, &info, &handle), WLK_SUCCESS);
     WlkPlanet planet;
     wlkInitStruct(WLK_STRUCT_PLANET, sizeof planet, &planet);
     for (float& one : planet.groundAlbedo) {

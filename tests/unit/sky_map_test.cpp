@@ -228,7 +228,7 @@ TEST(QuerySkyMap, OfTwelveTexelsLightsABoxAsAFineOneDoes) {
         query.position[1] = altitude;
         query.size = static_cast<uint32_t>(size);
         std::vector<float> rgb(3 * size * size);
-        check(wlkEvalSkyMap(scene.context, &query, rgb.data()));
+        check(wlkEvalSkyMap(scene.context, &query, rgb.data(), rgb.size() * sizeof(float)));
         std::vector<Rgb> sides;
         for (size_t axis = 0; axis < 3; ++axis) {
           for (const double sign : {-1.0, 1.0}) {

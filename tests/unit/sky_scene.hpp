@@ -82,7 +82,7 @@ struct SkyScene {
     query.size = size;
     query.maxOrder = maxOrder;
     std::vector<float> rgb(size_t{3} * size * size);
-    check(wlkEvalSkyMap(context, &query, rgb.data()));
+    check(wlkEvalSkyMap(context, &query, rgb.data(), rgb.size() * sizeof(float)));
     return rgb;
   }
 

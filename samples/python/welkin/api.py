@@ -12,7 +12,7 @@ import re
 
 import cffi
 
-HEADERS = ("core.h", "scene.h", "surface.h", "view.h", "query.h")
+HEADERS = ("core.h", "scene.h", "surface.h", "view.h", "output.h", "statistics.h", "query.h")
 
 
 class Error(Exception):

@@ -22,11 +22,11 @@ class Context:
     """
 
     def __init__(self, headless=False):
-        info = make("WlkContextInfo", apiVersion=API_VERSION)
+        info = make("WlkContextInfo")
         chained = make("WlkHeadlessInfo") if headless else ffi.NULL
         info.next = chained
         handle = ffi.new("WlkContext *")
-        check(lib.wlkCreateContext(info, handle))
+        check(lib.wlkCreateContext(API_VERSION, info, handle))
         self.handle = handle[0]
 
     def close(self):
@@ -146,7 +146,7 @@ class Context:
         """Octahedral map of radiance, (size, size, 3). wlkEvalSkyMap."""
         result = np.empty((size, size, 3), dtype=np.float32)
         query = make("WlkSkyMapQuery", position=position, size=size, maxOrder=max_order)
-        self.EvalSkyMap(query, pointer(result, "float *"))
+        self.EvalSkyMap(query, pointer(result, "float *"), result.nbytes)
         return result
 
     # ----------------------------------------------------------------------------- the picture
@@ -163,7 +163,7 @@ class Context:
             self.SetQuality(view[0], quality if quality is not None else make("WlkQuality"))
             self.Prepare()
             kept = []
-            targets = make("WlkHeadlessTargets")
+            targets = make("WlkHeadlessInputs")
             for name, data, shape in (("color", color, (height, width, 4)),
                                       ("depth", depth, (height, width))):
                 if data is not None:
@@ -171,6 +171,7 @@ class Context:
                     if kept[-1].shape != shape:
                         raise ValueError(f"{name} has the shape {kept[-1].shape}, not {shape}")
                     setattr(targets, name, pointer(kept[-1], "float *"))
+                    setattr(targets, name + "Size", kept[-1].nbytes)
             self.RenderHeadless(view[0], targets)
             picture = np.empty((height, width, 4), dtype=np.float32)
             image = make("WlkImageData", data=pointer(picture, "float *"), dataSize=picture.nbytes)

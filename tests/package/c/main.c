@@ -43,7 +43,7 @@ int main(void) {
   WlkMedium medium = {0};
   require(wlkGetVersion() == WLK_API_VERSION, "header and library are of one version");
   wlkInitStruct(WLK_STRUCT_CONTEXT_INFO, sizeof contextInfo, &contextInfo);
-  if (wlkCreateContext(&contextInfo, &context) != WLK_SUCCESS) {
+  if (wlkCreateContext(WLK_API_VERSION, &contextInfo, &context) != WLK_SUCCESS) {
     fprintf(stderr, "no context\n");
     return 1;
   }

@@ -25,8 +25,8 @@ extern "C" {
 
 #define WLK_MAKE_VERSION(major, minor, patch) \
   (((uint32_t)(major) << 22) | ((uint32_t)(minor) << 12) | (uint32_t)(patch))
-#define WLK_VERSION_MAJOR 0
-#define WLK_VERSION_MINOR 1
+#define WLK_VERSION_MAJOR 1
+#define WLK_VERSION_MINOR 0
 #define WLK_VERSION_PATCH 0
 /** The version of this header. */
 #define WLK_API_VERSION WLK_MAKE_VERSION(WLK_VERSION_MAJOR, WLK_VERSION_MINOR, WLK_VERSION_PATCH)
@@ -44,7 +44,7 @@ extern "C" {
 typedef int32_t WlkResult;
 enum {
   WLK_SUCCESS = 0,
-  /** The result asked for does not exist yet (no frame was rendered). */
+  /** The result asked for does not exist yet: no frame was rendered or recorded. */
   WLK_NOT_READY = 1,
   /** The array passed in was too short; it was filled as far as it goes. */
   WLK_INCOMPLETE = 2,
@@ -56,14 +56,15 @@ enum {
   WLK_ERROR_UNKNOWN_STRUCT = -3,
   /** structSize is larger than this library knows and the surplus bytes are not zero. */
   WLK_ERROR_STRUCT_TOO_NEW = -4,
-  /** The header's version is not supported by this library. */
+  /** The caller was built with headers of another major version. */
   WLK_ERROR_VERSION = -5,
   /** The host allocator returned null. */
   WLK_ERROR_OUT_OF_HOST_MEMORY = -6,
   /** Vulkan reported no device memory, or the resource exceeds a device limit's memory. */
   WLK_ERROR_OUT_OF_DEVICE_MEMORY = -7,
   /** Vulkan reported a lost device. From here on all that needs the device fails so without a call
-   *  of Vulkan; destroy calls free what they can. */
+   *  of Vulkan: what creates volumes, surfaces, views and maps, uploads, prepares, records or reads
+   *  back. Setters and queries go on; destroy calls and wlkVulkanForgetImage free what they can. */
   WLK_ERROR_DEVICE_LOST = -8,
   /** A format that the role does not support. */
   WLK_ERROR_UNSUPPORTED_FORMAT = -9,
@@ -89,6 +90,7 @@ typedef enum WlkStructType {
   WLK_STRUCT_CONTEXT_INFO = 2,
   WLK_STRUCT_HEADLESS_INFO = 3,
   WLK_STRUCT_CAPABILITIES = 4,
+  WLK_STRUCT_LOG_MESSAGE = 5,
   WLK_STRUCT_PLANET = 10,
   WLK_STRUCT_SKY = 11,
   WLK_STRUCT_LIGHT = 12,
@@ -102,12 +104,16 @@ typedef enum WlkStructType {
   WLK_STRUCT_VOLUME_BRICKS = 24,
   WLK_STRUCT_VOLUME_STATE = 25,
   WLK_STRUCT_SURFACE_INFO = 26,
+  WLK_STRUCT_SURFACE_DETAIL = 27,
   WLK_STRUCT_VIEW_INFO = 30,
   WLK_STRUCT_CAMERA = 31,
   WLK_STRUCT_QUALITY = 32,
   WLK_STRUCT_QUALITY_STATE = 33,
+  WLK_STRUCT_AERIAL_PERSPECTIVE = 34,
+  WLK_STRUCT_CLOUD_SHADOW_INFO = 35,
+  WLK_STRUCT_CLOUD_SHADOW_STATE = 36,
   WLK_STRUCT_FRAME_INFO = 40,
-  WLK_STRUCT_HEADLESS_TARGETS = 41,
+  WLK_STRUCT_HEADLESS_INPUTS = 41,
   WLK_STRUCT_IMAGE_DATA = 42,
   WLK_STRUCT_FRAME_STATS = 43,
   WLK_STRUCT_ERROR_ESTIMATE = 44,
@@ -118,10 +124,7 @@ typedef enum WlkStructType {
   WLK_STRUCT_VULKAN_DEVICE_INFO = 1000,
   WLK_STRUCT_VULKAN_REQUIREMENTS = 1001,
   WLK_STRUCT_VULKAN_IMAGE = 1002,
-  WLK_STRUCT_VULKAN_VIEW_TARGETS = 1003,
-  WLK_STRUCT_SHADOW_MAP_INFO = 1004,
-  WLK_STRUCT_SHADOW_MAP_STATE = 1005,
-  WLK_STRUCT_AERIAL_PERSPECTIVE = 1006
+  WLK_STRUCT_VULKAN_VIEW_TARGETS = 1003
 } WlkStructType;
 
 /** Version of the library that is running, as WLK_MAKE_VERSION. [F] */
@@ -153,7 +156,8 @@ typedef struct WlkErrorInfo {
   char message[WLK_MESSAGE_SIZE];
 } WlkErrorInfo;
 
-/** Copies the last error of the calling thread; it stays until the next failing call. [F] */
+/** Copies the last error of the calling thread; it stays until the next failing call, which a
+ *  wlkGetLastError with a wrong structure is, too. [F] */
 WLK_API WlkResult wlkGetLastError(WlkErrorInfo* info);
 
 /* ------------------------------------------------------------------------------------ context */
@@ -176,7 +180,8 @@ typedef struct WlkView {
   uint64_t id;
 } WlkView;
 
-/** Host allocator; all three null means malloc and free. Phase functions of media and fog (0.2 MB
+/** Host allocator; all three null means malloc and free. It is called on the threads that call
+ *  Welkin, and must neither throw nor call Welkin. Phase functions of media and fog (0.2 MB
  *  each), the table of skylight (0.2 MB) and the work space of their computation come from the C++
  *  runtime instead, and are not in WlkFrameStats::hostMemory. */
 typedef struct WlkAllocator {
@@ -187,10 +192,44 @@ typedef struct WlkAllocator {
   void (*release)(void* user, void* memory, uint64_t size, uint64_t alignment);
 } WlkAllocator;
 
-enum { WLK_LOG_ERROR = 1, WLK_LOG_WARNING = 2, WLK_LOG_INFO = 3 };
+enum {
+  /** A call fails or draws wrongly. */
+  WLK_LOG_ERROR = 1,
+  /** Something does not do what the caller may expect. */
+  WLK_LOG_WARNING = 2,
+  /** What was done and what it took. */
+  WLK_LOG_INFO = 3
+};
 
-/** Receives messages; `text` is UTF-8 and lives for the call. Must not call Welkin. */
-typedef void (*WlkLogCallback)(void* user, uint32_t severity, const char* text);
+/** What a message is about. What a call returns as an error is no message. */
+enum {
+  /** ERROR or WARNING of the validation layer (WLK_HEADLESS_VALIDATION). */
+  WLK_LOG_ID_VALIDATION = 1,
+  /** WARNING: voxels of an upload were negative, not finite or too large and were replaced. */
+  WLK_LOG_ID_VALUES_REPLACED = 2,
+  /** WARNING: a view's frame got an engine's shadow map that it makes no use of (WlkLightShadow
+   * says of which light it does). Once, until a frame uses one. */
+  WLK_LOG_ID_SHADOW_MAP_UNUSED = 3,
+  /** INFO: what wlkPrepare took. */
+  WLK_LOG_ID_PREPARED = 4
+};
+
+/** A message to WlkContextInfo::log; it grows as all structures do. */
+typedef struct WlkLogMessage {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** WLK_LOG_*. */
+  uint32_t severity;
+  /** WLK_LOG_ID_*. */
+  uint32_t id;
+  /** UTF-8, not translated, may change with any version. */
+  const char* text;
+} WlkLogMessage;
+
+/** Receives messages, which live for the call: on the thread that calls Welkin, and on any that the
+ *  driver chooses of WLK_LOG_ID_VALIDATION. Must not throw and not call Welkin. */
+typedef void (*WlkLogCallback)(void* user, const WlkLogMessage* message);
 
 /** What a context is made from. Chain WlkVulkanDeviceInfo (welkin_vulkan.h) for the engine's
  *  device, WlkHeadlessInfo for a device of Welkin's own, nothing for a CPU-only context. */
@@ -198,19 +237,17 @@ typedef struct WlkContextInfo {
   uint32_t sType;
   uint32_t structSize;
   const void* next;
-  /** Version of the header that the caller was built with. Default WLK_API_VERSION. */
-  uint32_t apiVersion;
   /** Frames that may be recorded before the first of them is complete. [1, 8], default 3. */
   uint32_t maxFramesInFlight;
+  uint32_t reserved0;
   /** Host allocator. Default all null. */
   WlkAllocator allocator;
-  /** Log receiver. Default null: silent. */
+  /** Log receiver, and what it gets as `user`. Default null: silent. */
   WlkLogCallback log;
   void* logUser;
   /** Most device memory that the context allocates; what would exceed it fails with
    *  OUT_OF_DEVICE_MEMORY before the driver is asked, and names this field. Memory is taken in
-   *  blocks of 16 MiB, and more for what is larger. bytes, 0: no limit. Default 0, also for callers
-   *  whose structSize ends before it. */
+   *  blocks of 16 MiB, and more for what is larger. bytes, 0: no limit. Default 0. */
   uint64_t deviceMemoryLimit;
 } WlkContextInfo;
 
@@ -230,15 +267,26 @@ typedef struct WlkHeadlessInfo {
   const char* deviceName;
 } WlkHeadlessInfo;
 
-/** Creates a context. Vulkan pointers of the chain must outlive it. [F]
- *  Errors: INVALID_ARGUMENT, VERSION, UNKNOWN_STRUCT, NO_DEVICE, MISSING_FEATURE, OUT_OF_*. */
-WLK_API WlkResult wlkCreateContext(const WlkContextInfo* info, WlkContext* context);
+/** Creates a context, or writes null. `apiVersion` is WLK_API_VERSION, which is compiled
+ *  into the caller. Every library of the same major version takes it: an older one refuses what it
+ *  does not know where it meets it (STRUCT_TOO_NEW, UNKNOWN_STRUCT, INVALID_ARGUMENT). Vulkan
+ *  handles and functions of the chain must outlive the context. [F] Errors: INVALID_ARGUMENT,
+ *  VERSION, UNKNOWN_STRUCT, STRUCT_TOO_NEW, NO_DEVICE, MISSING_FEATURE, OUT_OF_*, DEVICE_LOST. */
+WLK_API WlkResult wlkCreateContext(uint32_t apiVersion, const WlkContextInfo* info,
+                                   WlkContext* context);
 
-/** Destroys a context and all that was made from it; null is allowed. The GPU must be done with
- *  every frame that was recorded. [C] */
+/** Destroys a context and all that was made from it; null is allowed, a destroyed one is not. The
+ * GPU must be done with every frame that was recorded. [C] */
 WLK_API void wlkDestroyContext(WlkContext context);
 
-enum { WLK_MODE_CPU = 0, WLK_MODE_HEADLESS = 1, WLK_MODE_ENGINE_DEVICE = 2 };
+enum {
+  /** Queries alone. */
+  WLK_MODE_CPU = 0,
+  /** A device of Welkin's own (WlkHeadlessInfo). */
+  WLK_MODE_HEADLESS = 1,
+  /** The engine's device (WlkVulkanDeviceInfo). */
+  WLK_MODE_ENGINE_DEVICE = 2
+};
 
 /** What a context can do, and on which device. */
 typedef struct WlkCapabilities {
@@ -253,7 +301,7 @@ typedef struct WlkCapabilities {
   uint32_t maxLights;
   /** Largest edge of a volume in voxels. */
   uint32_t maxVolumeSize;
-  /** 1 if WLK_COMPOSITE_BLEND works on this device (dualSrcBlend), else 0. */
+  /** 1 if views may have WLK_COMPOSITE_BLEND (WLK_VULKAN_FEATURE_BLEND), else 0. */
   uint32_t blendSupported;
   uint32_t reserved0;
   /** Name of the device, "" in CPU mode. */

@@ -26,12 +26,14 @@ typedef struct WlkRayBatch {
   uint32_t sType;
   uint32_t structSize;
   const void* next;
+  /** Number of rays. Default 0. */
   uint32_t count;
   /** sizeof(WlkRay) of the caller. Default that. */
   uint32_t stride;
+  /** `count` rays; null only if that is 0. Default null. */
   const WlkRay* rays;
   /** Highest order of scattering of the radiance: 0 for all, 1 for single scattering alone. Default
-   *  0, also for callers whose structSize ends before it. */
+   *  0. */
   uint32_t maxOrder;
   uint32_t reserved0;
 } WlkRayBatch;
@@ -59,7 +61,8 @@ WLK_API WlkResult wlkEvalTransmittance(WlkContext context, const double from[3],
                                        double transmittance[3]);
 
 /** Irradiance of light `lightIndex` on a surface facing it at a world point, after air, absorber
- *  and fog: 3 values. [C] */
+ *  and fog: 3 values, at the wavelengths (wlkGetColorMatrix). [C] Errors: INVALID_ARGUMENT
+ * (lightIndex of no light that is set; position, irradiance). */
 WLK_API WlkResult wlkEvalLight(WlkContext context, uint32_t lightIndex, const double position[3],
                                double irradiance[3]);
 
@@ -112,9 +115,10 @@ typedef struct WlkSkyMapQuery {
 /** Radiance from all directions at a world point for image-based lighting, in the unit of the
  *  light's irradiance per sr: the sky, and below the horizon the ground, which reflects light and
  *  sky and is seen through air and fog; not the sun's disk. `rgb` gets size * size texels of 3
- *  floats, row by row, in an octahedral map (Cigolle et al. 2014) with the world's +y in its
- *  middle and -y in its corners. Texel (i, j), i along the row, has u = (2 i + 1) / size - 1,
- *  v = (2 j + 1) / size - 1 and the direction p / |p| towards where the light comes from:
+ *  floats (`rgbSize` are the bytes there, at least 12 * size * size), row by row, in an octahedral
+ * map (Cigolle et al. 2014) with the world's +y in its middle and -y in its corners. Texel (i, j),
+ * i along the row, has u = (2 i + 1) / size - 1, v = (2 j + 1) / size - 1 and the direction p / |p|
+ * towards where the light comes from:
  *
  *     p = (u, 1 - |u| - |v|, v), and if p.y < 0: p = ((1 - |v|) sign(u), p.y, (1 - |u|) sign(v))
  *
@@ -124,8 +128,9 @@ typedef struct WlkSkyMapQuery {
  *  lighting, not for looking at. Irradiances by a map of 32 are within 3 % of those by a fine
  *  one in air, 4 % in haze and 7 % in fog. Cost: a ray of wlkEvalSky per texel (32: 15 ms in
  *  clear air, 25 ms with fog), and its first call. 0 without a light. Volumes are not seen. [C]
- *  Errors: INVALID_ARGUMENT (position, size, maxOrder, rgb), and nothing is written. */
-WLK_API WlkResult wlkEvalSkyMap(WlkContext context, const WlkSkyMapQuery* query, float* rgb);
+ *  Errors: INVALID_ARGUMENT (position, size, maxOrder, rgb, rgbSize), and nothing is written. */
+WLK_API WlkResult wlkEvalSkyMap(WlkContext context, const WlkSkyMapQuery* query, float* rgb,
+                                uint64_t rgbSize);
 
 /** How often the light has been scattered. Particles do not absorb here, and light that goes
  * straight on (WlkMediumOptics::deltaFraction) was not scattered. */
@@ -143,6 +148,7 @@ typedef struct WlkPhaseQuery {
   uint32_t sType;
   uint32_t structSize;
   const void* next;
+  /** Default {0}, which is refused. */
   WlkMedium medium;
   /** WLK_ORDER_*. Default SINGLE. */
   uint32_t orderKind;
@@ -150,19 +156,21 @@ typedef struct WlkPhaseQuery {
   uint32_t order;
   /** For POISSON: optical depth without the part that goes straight on. [0, 1e4], default 1. */
   double opticalDepth;
+  /** Number of angles. Default 0. */
   uint32_t count;
   uint32_t reserved0;
-  /** `count` scattering angles. rad, 0 is forward, [0, pi]. */
+  /** `count` scattering angles. rad, 0 is forward, [0, pi]. Default null. */
   const double* scatteringAngle;
 } WlkPhaseQuery;
 
 /** Phase function of a medium, 1/sr: 3 values (RGB) per angle, each channel with integral 1 over
- * the sphere. [C] */
+ *  the sphere. [C] Errors: INVALID_HANDLE, INVALID_ARGUMENT (orderKind, order, opticalDepth,
+ *  scatteringAngle, phase). */
 WLK_API WlkResult wlkEvalPhase(WlkContext context, const WlkPhaseQuery* query, double* phase);
 
 /** Scattering angles (rad) of one channel (0..2) of a medium for `count` random numbers in [0, 1),
  *  by inversion, and the density per sr at each: the value of wlkEvalPhase. `density` may be null.
- *  [C] */
+ *  [C] Errors: INVALID_HANDLE, INVALID_ARGUMENT (channel, random, scatteringAngle). */
 WLK_API WlkResult wlkSamplePhase(WlkContext context, WlkMedium medium, uint32_t channel,
                                  uint32_t count, const double* random, double* scatteringAngle,
                                  double* density);

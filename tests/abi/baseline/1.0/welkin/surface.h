@@ -16,7 +16,7 @@ extern "C" {
  * changed mesh, light or place shows in the next frame. Light scattered once is exact along each
  * ray; light scattered more often is that of slabs of the canonical cloud ([B08] 5) which light
  * maps of the mesh choose, exact for slabs of droplets, elsewhere as docs/models.md says (bodies of
- * optical radius 2 to 30: pictures' totals within 22 %, spheres' within 12 %). Of media other than
+ * optical radius 2 to 30: pictures' totals within 24 %, spheres' within 12 %). Of media other than
  * cloud droplets (rain, ice, snow, haze) light is scattered once by their own phase function, more
  * often as by cloud of equal (1 - asymmetry) optical depth. */
 typedef struct WlkSurfaceInfo {
@@ -45,6 +45,29 @@ typedef struct WlkSurfaceInfo {
   double worldFromSurface[12];
 } WlkSurfaceInfo;
 
+/** Lumps and fissures under the faces of a surface, which its triangles need not have (a
+ * hypertexture, [B08] 8). Noise moves the edge of the cloud inwards, up to `depth` under a face;
+ * deeper, and without detail everywhere, the cloud is homogeneous. How deep points lie is found
+ * anew in each frame that shows a changed mesh, in cells of 0.8 depths or, in large meshes, wider
+ * ones; bumps much smaller than the depth are smoothed away. The pattern goes with the mesh's own
+ * axes, not with vertices that move in them. */
+typedef struct WlkSurfaceDetail {
+  uint32_t sType;
+  uint32_t structSize;
+  const void* next;
+  /** How deep the detail reaches at most under a face; a smaller part of a cloud that is not much
+   *  thicker. m in the world, [0, 1e6]. Default 0: none. */
+  float depth;
+  /** Size of the largest lumps; there are smaller ones of a half and a quarter. The pattern repeats
+   *  after 8 of them. m in the world, [0, 1e6]. Default 0: twice the depth. */
+  float size;
+  /** Width of the cloud's edge, of the depth. Small values make hard lumps, 1 wisps. [0.05, 1].
+   *  Default 0.3. */
+  float softness;
+  /** Moves the pattern along the mesh's axes. m in the world, |x| <= 1e7. Default 0. */
+  float offset[3];
+} WlkSurfaceDetail;
+
 /** Creates a cloud surface; it needs wlkPrepare. Views show it with WLK_LAYER_SURFACES, sorted
  * among the volumes by the nearest points of their boxes. It takes light from the first of the
  * lights that volumes take it from, casts no shadow on others, and is not in aerial perspective for
@@ -53,11 +76,18 @@ typedef struct WlkSurfaceInfo {
  *  indices, worldFromSurface), INVALID_HANDLE (medium), OUT_OF_*, WRONG_STATE in CPU mode. */
 WLK_API WlkResult wlkCreateSurface(WlkContext context, const WlkSurfaceInfo* info,
                                    WlkSurface* surface);
-/** The memory is freed when no frame in flight uses it. [C] */
+/** The memory is freed when no frame in flight uses it. [C] Errors: INVALID_HANDLE. */
 WLK_API WlkResult wlkDestroySurface(WlkContext context, WlkSurface surface);
-/** Moves a surface; as WlkSurfaceInfo::worldFromSurface. [C] */
+/** Moves a surface; as WlkSurfaceInfo::worldFromSurface. [C] Errors: INVALID_HANDLE,
+ * INVALID_ARGUMENT. */
 WLK_API WlkResult wlkSetSurfaceTransform(WlkContext context, WlkSurface surface,
                                          const double worldFromSurface[12]);
+/** Gives a surface detail, or other detail; null takes it away. The first detail of a context takes
+ * 6.6 MB of device memory and some 0.1 s, each up to 2 MB: cells as fine as the depth needs in the
+ * mesh as it is now. Set it again when positions or transform have made the mesh twice as large.
+ * [C] Errors: INVALID_ARGUMENT (depth, size, softness, offset), OUT_OF_*. */
+WLK_API WlkResult wlkSetSurfaceDetail(WlkContext context, WlkSurface surface,
+                                      const WlkSurfaceDetail* detail);
 /** New places of all vertices between the same triangles, for animation; as WlkSurfaceInfo has
  * them. Vertices that were at one place when the surface was created stay together: the place of
  * the last of them counts. [C] Errors: INVALID_ARGUMENT (positions; vertexCount other than at

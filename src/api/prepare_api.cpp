@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// wlkPrepare: pipelines, buffers and tables of what is there.
+#include <chrono>
+#include <utility>
+
+#include "api/context.hpp"
+#include "api/leap_maps.hpp"
+#include "api/light_stores.hpp"
+#include "api/plan_input.hpp"
+#include "api/sky_light.hpp"
+#include "api/surface_data.hpp"
+#include "frame/light_store.hpp"
+
+using namespace welkin;
+
+// Whether the eye is so high that it may soon look down on the edge of night: a tenth of where
+// pixels gather their light themselves, some 12 km on Earth.
+static bool nearSpace(const WlkContext_T& c, const ViewState& view) {
+  const glm::dvec3 eye(view.camera.position[0], view.camera.position[1], view.camera.position[2]);
+  return seenFromSpace(c.skyLight.latest(), 10 * planetFrameAt(c.air.planet, eye).altitude);
+}
+
+// The tables of the forms that views ask for.
+static void prepareTables(WlkContext_T& c, VolumeState& volume) {
+  for (uint32_t i = 0; i < c.views.slotCount(); ++i) {
+    if (const ViewState* view = c.views.at(i)) {
+      const SliceQuality quality = resolveQuality(view->quality);
+      prepareVolume(*c.device, volume, quality.form());
+      if (quality.ambientCells > 0 && c.ambientActive()) {
+        prepareMedia(*c.device, volume);
+      }
+    }
+  }
+}
+
+WlkResult wlkPrepare(WlkContext context) {
+  return guarded([&] {
+    WlkContext_T& c = checkContext(context);
+    vk::Device& device = c.requireDevice("wlkPrepare");
+    const auto start = std::chrono::steady_clock::now();
+    uint32_t prepared = 0;
+    prepareLeaps(c);
+    std::array<bool, FIELD_KINDS> used{};
+    for (uint32_t i = 0; i < c.volumes.slotCount(); ++i) {
+      if (VolumeState* volume = c.volumes.at(i)) {
+        prepareTables(c, *volume);
+        used[volume->fieldKind()] = true;
+      }
+    }
+    std::array<uint32_t, FIELD_KINDS> fieldKinds{};
+    size_t kinds = 0;
+    for (uint32_t kind = 0; kind < FIELD_KINDS; ++kind) {
+      if (used[kind]) {
+        fieldKinds[kinds++] = kind;
+      }
+    }
+    SceneFeatures features;
+    features.sky = c.air.sky.has_value();
+    features.absorber = features.sky && c.absorbs();
+    features.fog = c.fogActive();
+    features.lights = std::max(c.air.lightCount, 1U);
+    features.shapedDisk = c.shapedDisk();
+    features.ambient = c.ambientActive();
+    prepareSkyLight(c);
+    prepareLightStores(c);
+    prepareSurfaceLights(c);
+    features.surfaces = c.surfaces.count();
+    c.recordVolumes.reserve(c.volumes.count());
+    c.errorVolumes.reserve(c.volumes.count());
+    c.recordSurfaces.reserve(c.surfaces.count());
+    c.shadowCasters.reserve(c.volumes.count());
+    for (uint32_t i = 0; i < c.views.slotCount(); ++i) {
+      ViewState* view = c.views.at(i);
+      if (view != nullptr && nearSpace(c, *view) && !view->resources.space) {
+        view->prepared = false;
+      }
+      if (view == nullptr || view->prepared) {
+        continue;
+      }
+      c.retired.reserve(c.retired.size() + 1);
+      view->plan.volumes.reserve(c.volumes.count());
+      view->planVolumes.reserve(c.volumes.count());
+      view->plan.surfaces.reserve(c.surfaces.count());
+      view->planSurfaces.reserve(c.surfaces.count());
+      view->record.passes.reserve(passRoom(c.volumes.count(), c.surfaces.count()));
+      view->record.times.reserve(passRoom(c.volumes.count(), c.surfaces.count()));
+      // prepareView swaps new resources in; the old ones wait for their frames. From there on
+      // nothing may throw: nobody else owns what the carrier has.
+      ViewState carrier(&c.memory);
+      carrier.info = view->info;
+      carrier.quality = view->quality;
+      carrier.aerial = view->aerial;
+      carrier.volumeDistance = view->volumeDistance;
+      features.space = nearSpace(c, *view);
+      chooseStores(c, *view, features);
+      prepareView(device, *c.pipelines, carrier, c.volumes.count(), c.maxFramesInFlight, features,
+                  {fieldKinds.data(), kinds}, c.viewLights, &c.memory);
+      c.retireView(*view);
+      std::swap(view->resources, carrier.resources);
+      view->prepared = true;
+      ++prepared;
+    }
+    prepareShadowMaps(c, {fieldKinds.data(), kinds});
+    c.collect();
+    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+    c.emit(WLK_LOG_INFO, WLK_LOG_ID_PREPARED, "wlkPrepare: %u views made new, %.1f ms", prepared,
+           time.count());
+    return WLK_SUCCESS;
+  });
+}
