@@ -238,6 +238,11 @@ std::vector<LostRow> freeRows() {
       {"wlkReasonName", OK, OK, [](Objects) { return said(wlkReasonName(0)); }},
       {"wlkResultName", OK, OK, [](Objects) { return said(wlkResultName(0)); }},
       {"wlkGetVersion", OK, OK, [](Objects) { return wlkGetVersion() > 0 ? OK : LOST; }},
+      {"wlkGetColorMatrix", OK, OK,
+       [](Objects) {
+         double matrix[9];
+         return wlkGetColorMatrix(WLK_COLOR_LINEAR_SRGB, matrix);
+       }},
       {"wlkGetLastError", OK, OK, [](Objects) { return get(wlkGetLastError); }},
       {"wlkInitMoon", OK, OK, initMoon},
       {"wlkInitPresetStruct", OK, OK, initPreset},

@@ -165,30 +165,6 @@ TEST(QuerySky, FromFarAboveIsAsFromTheTop) {
   }
 }
 
-TEST(QuerySky, TakesTheStructureOfBeforeMaxOrder) {
-  const SkyScene scene;
-  scene.setSky();
-  scene.setSun(towards(30, 0));
-  const Rgb all = scene.radiance({0, 2, 0}, {0, 1, 0}, INF);
-  constexpr uint32_t OLD = offsetof(WlkRayBatch, maxOrder);
-  WlkRay ray{{0, 2, 0}, {0, 1, 0}, INF};
-  WlkRayBatch batch{};
-  batch.maxOrder = 77;
-  ASSERT_EQ(wlkInitStruct(WLK_STRUCT_RAY_BATCH, OLD, &batch), WLK_SUCCESS);
-  EXPECT_EQ(batch.structSize, OLD);
-  EXPECT_EQ(batch.maxOrder, 77u);  // not written
-  batch.count = 1;
-  batch.rays = &ray;
-  Rgb radiance{};
-  ASSERT_EQ(wlkEvalSky(scene.context, &batch, radiance.data(), nullptr), WLK_SUCCESS);
-  EXPECT_EQ(radiance, all);
-  for (const uint32_t size : {OLD - 1, OLD + 4}) {
-    batch.structSize = size;
-    EXPECT_EQ(wlkEvalSky(scene.context, &batch, radiance.data(), nullptr),
-              WLK_ERROR_INVALID_ARGUMENT);
-  }
-}
-
 TEST(QueryTransmittance, AgreesWithQuadratureBothWays) {
   constexpr double COLUMN = 0.003;  // layerColumn: 0.2 % of the depth, and rounding of the inputs
   const SkyScene scene;
