@@ -224,6 +224,7 @@ void VolumeWorld::show(const VolumeGroup& group, uint32_t level, uint32_t scatte
   quality.level = level;
   quality.scattering = scattering;
   quality.lightBufferSize = lightBufferSize_;
+  quality.volumeResolution = WLK_VOLUME_RESOLUTION_FULL;
   host::check(wlkSetQuality(context, view_, &quality), "wlkSetQuality");
   group_ = &group;
   turnLight(0);
