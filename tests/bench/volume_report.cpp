@@ -141,12 +141,13 @@ std::string studyTable(const std::vector<VolumeStudy>& studies) {
 
 std::string equalTable(const std::vector<VolumeStudy>& studies) {
   std::string text =
-      "| cloud | error, % | rays in every | welkin, ms | slicer, ms | welkin / slicer | of CPU time |\n"
-      "|---|---|---|---|---|---|---|\n";
+      "| cloud | error, % | rays in every | welkin, ms | slicer, ms | welkin / slicer | of CPU "
+      "time |\n|---|---|---|---|---|---|---|\n";
   for (const VolumeStudy& study : studies) {
     for (const EqualError& at : equalErrors(study)) {
       text += format("| %s | %.2f | %s | %.0f | %.0f | %.2f | %.2f |\n", study.one.name.c_str(),
-                     100 * at.error, at.halved ? "second pixel" : "pixel", at.welkin_ms, at.slicer_ms, at.ratio, at.cpuRatio);
+                     100 * at.error, at.halved ? "second pixel" : "pixel", at.welkin_ms,
+                     at.slicer_ms, at.ratio, at.cpuRatio);
     }
   }
   return text;
