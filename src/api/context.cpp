@@ -132,9 +132,8 @@ vk::Image makeDummy(vk::Device& device, VkImageType type, bool layers = false) {
 
 }  // namespace
 
-WlkContext_T::WlkContext_T(uint32_t callersVersion, const WlkContextInfo& contextInfo)
-    : apiVersion(callersVersion),
-      maxFramesInFlight(contextInfo.maxFramesInFlight),
+WlkContext_T::WlkContext_T(const WlkContextInfo& contextInfo)
+    : maxFramesInFlight(contextInfo.maxFramesInFlight),
       log(contextInfo.log),
       logUser(contextInfo.logUser),
       memory(contextInfo.allocator),
@@ -359,7 +358,7 @@ WlkResult wlkCreateContext(uint32_t apiVersion, const WlkContextInfo* info, WlkC
     std::pmr::memory_resource& resource = memory;
     void* place = resource.allocate(sizeof(WlkContext_T), alignof(WlkContext_T));
     try {
-      *context = new (place) WlkContext_T(apiVersion, copy);
+      *context = new (place) WlkContext_T(copy);
     } catch (...) {
       resource.deallocate(place, sizeof(WlkContext_T), alignof(WlkContext_T));
       throw;

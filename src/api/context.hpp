@@ -72,13 +72,12 @@ struct ImportedView {
 
 // Members in order of dependence: destroyed from the last to the first.
 struct WlkContext_T {
-  WlkContext_T(uint32_t callersVersion, const WlkContextInfo& contextInfo);
+  explicit WlkContext_T(const WlkContextInfo& contextInfo);
   ~WlkContext_T();
   WlkContext_T(const WlkContext_T&) = delete;
   WlkContext_T& operator=(const WlkContext_T&) = delete;
 
   uint32_t magic = welkin::CONTEXT_MAGIC;
-  uint32_t apiVersion = 0;  // of the caller's headers
   uint32_t mode = WLK_MODE_CPU;
   uint32_t maxFramesInFlight = 3;
   WlkLogCallback log = nullptr;

@@ -81,6 +81,11 @@ WlkVulkanImage Image::imported(const WlkVulkanImageState& before,
 
 void Image::transition(VkCommandBuffer commands, const WlkVulkanImageState& from,
                        const WlkVulkanImageState& to) const {
+  transition(commands, from, to, 0, layers());
+}
+
+void Image::transition(VkCommandBuffer commands, const WlkVulkanImageState& from,
+                       const WlkVulkanImageState& to, uint32_t firstLayer, uint32_t count) const {
   VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
   barrier.srcStageMask = from.stages;
   barrier.srcAccessMask = from.access;
@@ -91,7 +96,7 @@ void Image::transition(VkCommandBuffer commands, const WlkVulkanImageState& from
   barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   barrier.image = handle();
-  barrier.subresourceRange = {aspects(format()), 0, 1, 0, layers()};
+  barrier.subresourceRange = {aspects(format()), 0, 1, firstLayer, count};
   VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
   info.imageMemoryBarrierCount = 1;
   info.pImageMemoryBarriers = &barrier;

@@ -39,6 +39,9 @@ class Image : public support::Image {
                           const WlkVulkanImageState& after) const;
   void transition(VkCommandBuffer commands, const WlkVulkanImageState& from,
                   const WlkVulkanImageState& to) const;
+  // Of some layers alone.
+  void transition(VkCommandBuffer commands, const WlkVulkanImageState& from,
+                  const WlkVulkanImageState& to, uint32_t firstLayer, uint32_t count) const;
   // Discards the contents, copies a buffer of encoded texels; leaves COPY_TARGET.
   void write(VkCommandBuffer commands, const Buffer& from) const;
   // Expects COPY_SOURCE.

@@ -133,25 +133,6 @@ TEST(EngineLayouts, PictureStaysWhenNothingIsDrawn) {
   }
 }
 
-// One barrier of one layer.
-void moveLayer(VkCommandBuffer commands, const Image& image, uint32_t layer,
-               const WlkVulkanImageState& from, const WlkVulkanImageState& to) {
-  VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-  barrier.srcStageMask = from.stages;
-  barrier.srcAccessMask = from.access;
-  barrier.dstStageMask = to.stages;
-  barrier.dstAccessMask = to.access;
-  barrier.oldLayout = from.layout;
-  barrier.newLayout = to.layout;
-  barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-  barrier.image = image.handle();
-  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, layer, 1};
-  VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-  info.imageMemoryBarrierCount = 1;
-  info.pImageMemoryBarriers = &barrier;
-  vkCmdPipelineBarrier2(commands, &info);
-}
-
 // The middle layer of three is drawn to; the others are in another layout, with contents of their
 // own. The validation layer objects if Welkin moves them.
 TEST(EngineLayouts, NoOtherLayerOfAnArrayIsMovedOrWritten) {
@@ -174,7 +155,7 @@ TEST(EngineLayouts, NoOtherLayerOfAnArrayIsMovedOrWritten) {
   check(wlkVulkanCmdUpdate(engine.context(), commands));
   image.write(commands, before);
   for (uint32_t layer = 0; layer < LAYERS; ++layer) {
-    moveLayer(commands, image, layer, COPY_TARGET, layer == DRAWN ? GENERAL : ATTACHMENT);
+    image.transition(commands, COPY_TARGET, layer == DRAWN ? GENERAL : ATTACHMENT, layer, 1);
   }
   WlkVulkanImage target = image.imported(GENERAL, SAMPLED);
   target.baseArrayLayer = DRAWN;
@@ -183,7 +164,7 @@ TEST(EngineLayouts, NoOtherLayerOfAnArrayIsMovedOrWritten) {
   targets.color = &target;
   check(wlkVulkanCmdRenderView(engine.context(), commands, view, &targets));
   for (uint32_t layer = 0; layer < LAYERS; ++layer) {
-    moveLayer(commands, image, layer, layer == DRAWN ? SAMPLED : ATTACHMENT, COPY_SOURCE);
+    image.transition(commands, layer == DRAWN ? SAMPLED : ATTACHMENT, COPY_SOURCE, layer, 1);
   }
   image.read(commands, after);
   orderCopiesBeforeHost(commands);

@@ -148,7 +148,7 @@ enum {
 
 /** In how many pixels the rays of volumes are marched. */
 enum {
-  /** The level's choice: FULL on every level. */
+  /** The level's choice: FULL on ULTRA, else HALF, as with all controls but LEVEL. */
   WLK_VOLUME_RESOLUTION_DEFAULT = 0,
   /** In each. */
   WLK_VOLUME_RESOLUTION_FULL = 1,
