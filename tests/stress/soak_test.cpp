@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What shows only after many frames, or on other machines: memory that grows, and pictures that
 // depend on how many threads drew them.
+#include <malloc.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -17,6 +19,12 @@ namespace {
 
 constexpr uint64_t FRAMES = 10000;
 constexpr uint64_t WARM_UP = 1000;
+
+// Bytes that somebody has asked the C library for and not given back.
+uint64_t allocatedBytes() {
+  const auto info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
 
 // Bytes of memory that the process holds.
 uint64_t residentBytes() {
@@ -43,8 +51,9 @@ TEST(Soak, TenThousandFramesTakeNoMoreMemoryThanOneThousand) {
   const WlkVolume ball = scene.addBall(0.005f);
   check(wlkPrepare(scene.context));
   WlkFrameStats warm{};
+  uint64_t allocated = 0;
   uint64_t resident = 0;
-  for (uint64_t n = 0; n < FRAMES; ++n) {
+  for (uint64_t n = 0; n <= FRAMES; ++n) {
     // All that may change without wlkPrepare: eye, place of the volume, fog's density, voxels.
     scene.setCamera({0, 2 + static_cast<double>(n % 100), 0}, static_cast<double>(n % 90) - 45, 10);
     if (n % 10 == 0) {
@@ -58,6 +67,7 @@ TEST(Soak, TenThousandFramesTakeNoMoreMemoryThanOneThousand) {
     check(wlkRenderHeadless(scene.context, scene.view, nullptr));
     if (n == WARM_UP) {
       warm = scene.stats();
+      allocated = allocatedBytes();
       resident = residentBytes();
     }
   }
@@ -65,14 +75,18 @@ TEST(Soak, TenThousandFramesTakeNoMoreMemoryThanOneThousand) {
   EXPECT_EQ(end.hostMemory, warm.hostMemory);
   EXPECT_EQ(end.deviceMemory, warm.deviceMemory);
   EXPECT_EQ(scene.read(WLK_IMAGE_COLOR).badValues(), 0u);
-  // The driver's allocator may round: a quarter of a kilobyte per frame would show.
-  constexpr uint64_t SLACK = (FRAMES - WARM_UP) * 256;
+  // What is in use moves by a few kilobytes to and fro (5 measured): 32 bytes per frame would show.
+  constexpr uint64_t LEAK = (FRAMES - WARM_UP) * 32;
+  EXPECT_LE(allocatedBytes(), allocated + LEAK);
+  // What the library does not count, mapped memory. The driver's aligned megabytes leave holes in
+  // glibc's heap, up to 7.4 MB of them measured: 2 kilobytes per frame would show.
+  constexpr uint64_t SLACK = (FRAMES - WARM_UP) * 2048;
   EXPECT_LE(residentBytes(), resident + SLACK);
-  RecordProperty("resident_bytes_grown",
-                 std::to_string(static_cast<int64_t>(residentBytes() - resident)));
-  std::printf(
-      "%llu frames, %lld bytes more than after %llu\n", static_cast<unsigned long long>(FRAMES),
-      static_cast<long long>(residentBytes() - resident), static_cast<unsigned long long>(WARM_UP));
+  std::printf("%llu frames: %lld bytes in use and %lld held more than after %llu\n",
+              static_cast<unsigned long long>(FRAMES),
+              static_cast<long long>(allocatedBytes() - allocated),
+              static_cast<long long>(residentBytes() - resident),
+              static_cast<unsigned long long>(WARM_UP));
 }
 
 // Lavapipe of Mesa 22 makes a kernel anew for each bind and keeps it, where a kernel's ways depend
