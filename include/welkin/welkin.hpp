@@ -90,7 +90,7 @@ T make() {
 }
 
 /** A part of an atmosphere, WLK_ATMOSPHERE_*: makePreset<WlkSky>(WLK_ATMOSPHERE_MARS). With another
- *  number all but sType and structSize stay zero. */
+ *  number all stays zero. */
 template <class T>
 T makePreset(std::uint32_t preset) {
   T structure = T();

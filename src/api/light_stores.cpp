@@ -8,7 +8,7 @@
 namespace welkin {
 namespace {
 
-// Device memory for all of a context's stores: room for 7 volumes at the level high. What finds no
+// Device memory for all of a context's stores: room for 15 volumes at the level high. What finds no
 // room is drawn in batches.
 constexpr VkDeviceSize MOST_STORED = VkDeviceSize{512} << 20;
 

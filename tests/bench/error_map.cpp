@@ -4,8 +4,11 @@
 // angles in the plane of the sun. Per unit irradiance normal to the beam, 1/sr, at 550 nm, without
 // absorption. Thickness does not count what goes straight on (rain, ice, snow). Under a minute.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <future>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -105,9 +108,9 @@ double separation(double mu0, const rt::SlabView& view) {
   return std::max(1 + view.mu * mu0 - sines * std::cos(view.phi), 0.0);
 }
 
-void writeKind(std::FILE* file, WlkContext context, const Kind& kind) {
+std::string rowsOf(const Kind& kind, const rt::SlabPhase& phase) {
   using Attenuation = rt::SlabModel::Attenuation;
-  const rt::SlabPhase phase = phaseOf(context, kind);
+  std::string rows;
   const rt::SlabSolver solver(phase, 1, NODES);
   const rt::SlabModel model(phase, 1, 100 / std::cos(80 * PI / 180) + 1);
   for (const int sun : SUNS) {
@@ -126,14 +129,18 @@ void writeKind(std::FILE* file, WlkContext context, const Kind& kind) {
         const auto printed = [&](Attenuation attenuation, int slices) {
           return model.printed(tau, mu0, mu, angles[i], attenuation, slices);
         };
-        std::fprintf(file, "%s,%g,%d,%d,%s,%.3g,%.3g,%.3g,%.3g,%.3g,%.3g\n", kind.name, tau, sun,
-                     directions[i].view_deg, directions[i].reflected ? "reflected" : "transmitted",
-                     truth[i].total, truth[i].single, printed(Attenuation::EQ_24, SLICES),
-                     printed(Attenuation::EQ_25, SLICES), printed(Attenuation::EQ_25, MORE_SLICES),
-                     model.corrected(tau, mu0, mu, angles[i]));
+        std::array<char, 200> row{};
+        std::snprintf(row.data(), row.size(), "%s,%g,%d,%d,%s,%.3g,%.3g,%.3g,%.3g,%.3g,%.3g\n",
+                      kind.name, tau, sun, directions[i].view_deg,
+                      directions[i].reflected ? "reflected" : "transmitted", truth[i].total,
+                      truth[i].single, printed(Attenuation::EQ_24, SLICES),
+                      printed(Attenuation::EQ_25, SLICES), printed(Attenuation::EQ_25, MORE_SLICES),
+                      model.corrected(tau, mu0, mu, angles[i]));
+        rows += row.data();
       }
     }
   }
+  return rows;
 }
 
 int run(const char* path) {
@@ -146,9 +153,13 @@ int run(const char* path) {
                "type,tau,sun_deg,view_deg,side,truth,single,printed24,"
                "printed25,printed25_1024,corrected\n");
   const host::ContextPtr context = host::makeCpuContext();
+  std::vector<std::future<std::string>> parts;
   for (const Kind& kind : KINDS) {
-    std::fprintf(stderr, "%s\n", kind.name);
-    writeKind(file, context.get(), kind);
+    parts.push_back(
+        std::async(std::launch::async, rowsOf, std::cref(kind), phaseOf(context.get(), kind)));
+  }
+  for (std::future<std::string>& part : parts) {
+    std::fputs(part.get().c_str(), file);
   }
   return std::fclose(file) == 0 ? 0 : 1;
 }

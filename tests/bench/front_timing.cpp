@@ -11,8 +11,8 @@ namespace bench {
 namespace {
 
 // A frame is repeated until a round spends this long on it: timers and schedulers then matter
-// less than 1 %.
-constexpr double MIN_ROUND_ms = 30.0;
+// some per cent. Many short rounds follow a machine whose speed drifts better than few long ones.
+constexpr double MIN_ROUND_ms = 10.0;
 constexpr size_t MAX_REPEATS = 64;
 // Cheap scenes get more rounds, up to MORE_ROUNDS times as many. Ratios of two runs still differ,
 // see docs/accuracy-and-performance.md.
@@ -24,9 +24,9 @@ constexpr double LONG_WARM_UP_ms = 200.0;
 // A method whose first frame takes longer than this (light of all orders) is not copied.
 constexpr double LONG_FIRST_ms = 1000.0;
 // Long frames differ less: from so many times MIN_ROUND_ms on a method is timed in every second
-// round.
-constexpr double LONG_ROUND = 4.0;
-constexpr size_t MAX_STRIDE = 2;
+// round, from twice as many on in every third.
+constexpr double LONG_ROUND = 6.0;
+constexpr size_t MAX_STRIDE = 3;
 
 struct Sample {
   double wall = 0.0;

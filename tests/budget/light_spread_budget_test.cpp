@@ -165,6 +165,9 @@ TEST(LightSpread, MakesNothingInSteadyFramesUnderAMovingSun) {
 }
 
 TEST(LightSpread, WhatIsNoLongerOfUseIsComputedAtOnceAlsoInTheMiddleOfWork) {
+  const Sun far{SECOND.elevation + 5.1, SECOND.azimuth};
+  const auto thinner = atOnce(SECOND, 0.5f);
+  const auto turned = atOnce(far);
   for (uint32_t middle = 0; middle <= 2 * FRAMES; ++middle) {
     SCOPED_TRACE(middle);
     Scene scene(FRAMES);
@@ -179,12 +182,11 @@ TEST(LightSpread, WhatIsNoLongerOfUseIsComputedAtOnceAlsoInTheMiddleOfWork) {
     if (middle % 2 == 0) {
       fill(scene, ball, 0.5f);
       EXPECT_STREQ(wlkReasonName(scene.frame().reason), "WLK_REASON_NEEDED");
-      EXPECT_TRUE(scene.read() == atOnce(SECOND, 0.5f));
+      EXPECT_TRUE(scene.read() == thinner);
     } else {
-      const Sun far{SECOND.elevation + 5.1, SECOND.azimuth};
       scene.shine(far);
       EXPECT_STREQ(wlkReasonName(scene.frame().reason), "WLK_REASON_NEEDED");
-      EXPECT_TRUE(scene.read() == atOnce(far));
+      EXPECT_TRUE(scene.read() == turned);
     }
     EXPECT_STREQ(wlkReasonName(scene.frame().reason), "WLK_REASON_UNCHANGED");
   }

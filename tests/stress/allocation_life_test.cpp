@@ -90,7 +90,8 @@ TEST_P(AllocationFaults, EachLeavesTheContextAsItWas) {
   FaultLayer::makeHollowPipelines(true);
   const Kind& kind = GetParam();
   // The first light in air takes long.
-  const uint64_t stride = strideOfAll() > 0 ? strideOfAll() : kind.air ? 7 : kind.stride;
+  const uint64_t all = strideOfAll();
+  const uint64_t stride = all > 0 ? all : SPARSER * (kind.air ? 7 : kind.stride);
   const uint64_t allocations = live(kind, CountingAllocator::NEVER, Failing::ONCE);
   const std::vector<double> truth = end;
   ASSERT_GT(allocations, 50u);

@@ -26,6 +26,11 @@ constexpr WlkResult codeOf(VkResult code) {
                                                  : WLK_ERROR_DEVICE_LOST;
 }
 
+// Lives between two with a fault are so many times more where each is instrumented, and slow. No
+// multiple of 3: codes take turns.
+inline constexpr uint64_t SPARSER = WELKIN_SPARSER;
+static_assert(SPARSER % CODES.size() != 0);
+
 // 0, or the stride that WELKIN_ALL_FAULTS asks for, with each code at each place: 1 for all.
 inline uint64_t strideOfAll() {
   const char* text = std::getenv("WELKIN_ALL_FAULTS");

@@ -82,11 +82,10 @@ TEST(Soak, TenThousandFramesTakeNoMoreMemoryThanOneThousand) {
   // glibc's heap, up to 7.4 MB of them measured: 2 kilobytes per frame would show.
   constexpr uint64_t SLACK = (FRAMES - WARM_UP) * 2048;
   EXPECT_LE(residentBytes(), resident + SLACK);
-  std::printf("%llu frames: %lld bytes in use and %lld held more than after %llu\n",
-              static_cast<unsigned long long>(FRAMES),
-              static_cast<long long>(allocatedBytes() - allocated),
-              static_cast<long long>(residentBytes() - resident),
-              static_cast<unsigned long long>(WARM_UP));
+  std::printf(
+      "%llu frames: %lld bytes in use and %lld held more than after %llu\n",
+      static_cast<unsigned long long>(FRAMES), static_cast<long long>(allocatedBytes() - allocated),
+      static_cast<long long>(residentBytes() - resident), static_cast<unsigned long long>(WARM_UP));
 }
 
 // Lavapipe of Mesa 22 makes a kernel anew for each bind and keeps it, where a kernel's ways depend
