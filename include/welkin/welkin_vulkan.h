@@ -128,7 +128,7 @@ typedef struct WlkVulkanViewTargets {
   const WlkVulkanImage* colorInput;
   /** COMPUTE: written. BLEND: blended onto. Default null. */
   const WlkVulkanImage* color;
-  /** SEPARATE: written. Default null. */
+  /** SEPARATE: written; two images. Default null. */
   const WlkVulkanImage* radiance;
   const WlkVulkanImage* transmittance;
   /** The engine's shadow map and where it lies; both or none. Needs WLK_QUALITY_FLAG_LIGHT_SHADOWS.

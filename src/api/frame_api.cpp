@@ -77,6 +77,9 @@ void uploadSkyLight(WlkContext_T& c, VkCommandBuffer commands) {
     copyInto(c.device->vk(), commands, light.staging, light.fog, region, false);
     light.fogStaged = false;
     ++c.updateCopies;
+  } else if (light.fog) {
+    // The fog went before its table was ever written; descriptors name the image all the same.
+    clearOnce(c.device->vk(), commands, light.fog);
   }
   light.now = light.staged;
   ++light.version;
@@ -136,6 +139,7 @@ void renderHeadless(WlkContext_T& c, ViewState& view, const WlkHeadlessInputs& i
     stageShadowDepth(c, view, inputs, inputs.lightShadow->cascadeCount);
   }
   VkCommandBuffer commands = c.headless->begin();
+  ++c.frameIndex;  // what was refused is no frame
   recordUpdate(c, commands);
   ViewResources& r = view.resources;
   const VkDeviceSize pixels = VkDeviceSize{view.info.width} * view.info.height;
@@ -382,7 +386,6 @@ WlkResult wlkRenderHeadless(WlkContext context, WlkView view, const WlkHeadlessI
       fail(WLK_ERROR_NOT_PREPARED, 0, "view", "call wlkPrepare before rendering");
     }
     checkInputs(state, value);
-    ++c.frameIndex;
     renderHeadless(c, state, value);
     return WLK_SUCCESS;
   });

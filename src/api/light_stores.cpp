@@ -71,7 +71,9 @@ void prepareLightStores(WlkContext_T& c) {
     VolumeState* volume = c.volumes.at(i);
     for (const LightStoreShape& shape : wanted) {
       const VkDeviceSize more = lightStoreBytes(shape);
-      if (volume != nullptr && !has(*volume, shape) && bytes + more <= MOST_STORED) {
+      const bool fits =
+          std::max(shape.size, shape.layers) <= c.device->properties().limits.maxImageDimension3D;
+      if (volume != nullptr && fits && !has(*volume, shape) && bytes + more <= MOST_STORED) {
         volume->lightStores.push_back(makeLightStore(*c.device, shape));
         bytes += more;
       }

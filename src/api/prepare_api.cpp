@@ -74,6 +74,12 @@ WlkResult wlkPrepare(WlkContext context) {
       if (view != nullptr && nearSpace(c, *view) && !view->resources.space) {
         view->prepared = false;
       }
+      if (view != nullptr && view->prepared) {
+        // Another view's light may have made room for this one's since.
+        chooseStores(c, *view, features);
+        const ViewResources& r = view->resources;
+        view->prepared = !(features.stores && !r.stores) && !(features.batches && !r.batches);
+      }
       if (view == nullptr || view->prepared) {
         continue;
       }

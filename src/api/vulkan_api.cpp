@@ -96,6 +96,10 @@ ViewTargets importTargets(WlkContext_T& c, const ViewState& view, const WlkVulka
   if (view.info.composite == WLK_COMPOSITE_SEPARATE) {
     targets.target0 = colorTarget(c, t.radiance, "radiance", view, true);
     targets.target1 = colorTarget(c, t.transmittance, "transmittance", view, true);
+    if (sameImage(*t.radiance, *t.transmittance)) {
+      fail(WLK_ERROR_INVALID_ARGUMENT, t.sType, "transmittance",
+           "WlkVulkanViewTargets::transmittance is the image of radiance");
+    }
     return targets;
   }
   targets.target0 = colorTarget(c, t.color, "color", view, true);

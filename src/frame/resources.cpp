@@ -341,6 +341,8 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   if (view.volumeDistance) {
     r.distances = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
   }
+  r.stores = features.stores;
+  r.batches = features.batches;
   const bool seconds = quality.halfVolumes && features.stores && volumeCount > 0;
   if ((layers > 1 && volumeCount > 0 && batches > 1 && features.batches) || seconds) {
     const VkDeviceSize bytes = seconds ? std::max(secondsBytes(info), stateBytes) : stateBytes;
@@ -356,6 +358,12 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
            info.height);
     }
     if (features.batches) {
+      const uint32_t most = device.properties().limits.maxImageDimension3D;
+      if (std::max(quality.lightSize, quality.batchSize + 1) > most) {
+        fail(WLK_ERROR_LIMIT_EXCEEDED, WLK_STRUCT_QUALITY, "batchSize",
+             "%u texels and batches of %u slabs exceed the device's largest 3-D image, %u",
+             quality.lightSize, quality.batchSize, most);
+      }
       vk::ImageInfo light;
       light.type = VK_IMAGE_TYPE_3D;
       light.format = VK_FORMAT_R32G32_SFLOAT;

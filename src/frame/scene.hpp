@@ -366,6 +366,9 @@ struct ViewResources {
         shadow(memory),
         shadowCasters(memory),
         slots(memory) {}
+  // Whether pipelines and buffers are there for light kept for all views, and for light in batches.
+  bool stores = false;
+  bool batches = false;
   vk::Image lightBuffer;
   vk::Image viewSource;          // what cells of the volume in turn scatter towards the eye
   TransportWork transportWork;   // where light is computed at once: one volume at a time

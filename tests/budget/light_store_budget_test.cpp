@@ -272,5 +272,38 @@ TEST(LightStore, IsSharedByViewsThatAskForTheSame) {
   EXPECT_TRUE(scene.messages().empty()) << scene.messages().front();
 }
 
+// A view that had found no room keeps its light once another one's has gone, in every second pixel
+// as it would have from the start.
+TEST(LightStore, IsTakenUpByAViewThatHadFoundNoRoom) {
+  SceneOptions options = small();
+  options.level = WLK_QUALITY_HIGH;
+  options.volumeResolution = WLK_VOLUME_RESOLUTION_DEFAULT;
+  HeadlessScene scene(options);
+  scene.setSun(30, 20);
+  scene.setCamera({0, 2, 0}, 0, 12);
+  scene.addBall(0.01f);
+  const WlkView first = scene.view;
+  auto large = make<WlkQuality>();
+  large.scattering = WLK_SCATTERING_FORWARD;
+  large.sliceCount = 250;
+  large.lightBufferSize = 512;  // 502 MiB of 512
+  check(wlkSetQuality(scene.context, first, &large));
+  check(wlkPrepare(scene.context));
+  scene.view = scene.addView(options);
+  scene.setCamera({0, 2, 0}, 0, 12);
+  scene.render();
+  EXPECT_GT(lightOf(scene)[0].commands, 1u) << "in batches";
+  const auto usual = make<WlkQuality>();
+  check(wlkSetQuality(scene.context, first, &usual));
+  const Image kept = scene.render();
+  EXPECT_EQ(lightOf(scene)[0].commands, 1u);
+  HeadlessScene fresh(options);
+  fresh.setSun(30, 20);
+  fresh.setCamera({0, 2, 0}, 0, 12);
+  fresh.addBall(0.01f);
+  EXPECT_TRUE(kept == fresh.render());
+  EXPECT_TRUE(scene.messages().empty()) << scene.messages().front();
+}
+
 }  // namespace
 }  // namespace welkin::test

@@ -134,11 +134,19 @@ TEST_F(LightShadowAbuse, WrongFieldsAreNamedAndChangeNothing) {
     test.spoil(bad);
     EXPECT_FAILS(render(bad), WLK_ERROR_INVALID_ARGUMENT, test.field);
   }
+  const auto bad = [&] {
+    WlkHeadlessInputs tall = targets();
+    tall.shadowHeight = 8193;
+    return tall;
+  };
   depth[2 * TEXELS * TEXELS - 1] = NOT_A_NUMBER;
   EXPECT_FAILS(render(targets()), WLK_ERROR_INVALID_ARGUMENT, "shadowDepth");
   depth[2 * TEXELS * TEXELS - 1] = 0.25f;
   EXPECT_TRUE(scene.render() == before);
+  const uint64_t frame = scene.stats().frameIndex;
+  EXPECT_FAILS(render(bad()), WLK_ERROR_INVALID_ARGUMENT, "shadowHeight");
   EXPECT_EQ(render(targets()), WLK_SUCCESS);
+  EXPECT_EQ(scene.stats().frameIndex, frame + 1) << "what is refused is no frame";
   scene.setQuality(WLK_QUALITY_LOW);
   check(wlkPrepare(scene.context));
   EXPECT_FAILS(render(targets()), WLK_ERROR_WRONG_STATE, "lightShadow");

@@ -240,6 +240,37 @@ TEST_F(EngineAbuse, NewVolumesNeedAnUpdateBeforeTheViews) {
   });
 }
 
+// An image that was made for fog's light, and that no update has written since, is bound all the
+// same.
+TEST_F(EngineAbuse, FogThatGoesBeforeAnyUpdateStopsNothing) {
+  scene.setSky();
+  scene.setFog(1e-4f, 300.0f);
+  ASSERT_EQ(wlkPrepare(scene.context), WLK_SUCCESS);
+  ASSERT_EQ(wlkSetFog(scene.context, nullptr), WLK_SUCCESS);
+  ASSERT_EQ(wlkPrepare(scene.context), WLK_SUCCESS);
+  scene.renderFrame();
+  EXPECT_FALSE(scene.read() == before) << "there is a sky now";
+}
+
+TEST(EngineViews, RadianceAndTransmittanceAreTwoImages) {
+  SceneOptions options;
+  options.width = options.height = 8;
+  options.composite = WLK_COMPOSITE_SEPARATE;
+  EngineScene scene(options);
+  ASSERT_EQ(wlkPrepare(scene.context), WLK_SUCCESS);
+  const WlkVulkanImage image = EngineScene::describe(scene.target(), VK_IMAGE_LAYOUT_GENERAL);
+  auto frame = make<WlkFrameInfo>();
+  frame.frameIndex = 1;
+  ASSERT_EQ(wlkBeginFrame(scene.context, &frame), WLK_SUCCESS);
+  auto targets = make<WlkVulkanViewTargets>();
+  targets.radiance = targets.transmittance = &image;
+  scene.device().run([&](VkCommandBuffer commands) {
+    EXPECT_EQ(wlkVulkanCmdUpdate(scene.context, commands), WLK_SUCCESS);
+    EXPECT_FAILS(wlkVulkanCmdRenderView(scene.context, commands, scene.view, &targets),
+                 WLK_ERROR_INVALID_ARGUMENT, "transmittance");
+  });
+}
+
 TEST_F(EngineAbuse, WrongTargetsAreNamedAndTheRightOnesStillWork) {
   struct Case {
     const char* field;
