@@ -337,8 +337,8 @@ typedef struct WlkLightShadow {
   double origin[3];
   /** Per cascade, column-major: (world position - origin, 1) to Vulkan clip space: x and y in
    *  [-1, 1], (-1, -1) at the outer corner of texel (0, 0), depth in [0, 1]. Affine and
-   *  invertible, |x| <= 1e9, lines of equal x and y within 30 degrees of the light's direction. It
-   *  tells whether depth is reversed. Default identity. */
+   *  invertible, |x| <= 1e9, edges and depth of 2 mm to 1e7 m, lines of equal x and y within 30
+   *  degrees of the light's direction. It tells whether depth is reversed. Default identity. */
   float clipFromWorld[WLK_MAX_SHADOW_CASCADES][16];
   /** Points up to this far behind the map's surface count as lit: half a texel's width on slopes
    *  of 45 degrees. m along the light, [0, 1e6], default 0.1. */
