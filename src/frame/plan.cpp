@@ -105,11 +105,33 @@ bool contains(const glm::dmat4x3& box, const glm::dvec3& point) {
          glm::all(glm::lessThanEqual(local, glm::dvec3(1)));
 }
 
-// Distance from the eye (the origin) to the box's nearest point, along its axes.
+// Distance from the eye (the origin) to the box's nearest point: of a box with right angles along
+// its axes, else on an edge or at the foot of the normal on a face.
 double distanceTo(const glm::dmat4x3& box) {
-  const glm::dmat3 linear(box);
-  const glm::dvec3 local = glm::clamp(glm::inverse(linear) * -box[3], 0.0, 1.0);
-  return glm::length(box * glm::dvec4(local, 1.0));
+  const glm::dmat3 inverse = glm::inverse(glm::dmat3(box));
+  const glm::dvec3 local = glm::clamp(inverse * -box[3], 0.0, 1.0);
+  const double along = glm::length(box * glm::dvec4(local, 1.0));
+  double nearest = along;
+  for (int i = 0; i < 3; ++i) {
+    for (int side = 0; side < 4; ++side) {
+      const double first = side & 1;
+      const double second = side >> 1;
+      const glm::dvec3 from = box[3] + box[(i + 1) % 3] * first + box[(i + 2) % 3] * second;
+      const double t = -glm::dot(from, box[i]) / glm::dot(box[i], box[i]);
+      nearest = std::min(nearest, glm::length(from + box[i] * glm::clamp(t, 0.0, 1.0)));
+    }
+    const glm::dvec3 normal(inverse[0][i], inverse[1][i], inverse[2][i]);
+    for (const glm::dvec3& from : {box[3], box[3] + box[i]}) {
+      const glm::dvec3 foot = normal * (glm::dot(from, normal) / glm::dot(normal, normal));
+      glm::dvec3 place = inverse * (foot - box[3]);
+      place[i] = 0;
+      if (place == glm::clamp(place, 0.0, 1.0)) {
+        nearest = std::min(nearest, glm::length(foot));
+      }
+    }
+  }
+  // Rounding must not tell boxes apart that share their nearest point.
+  return nearest < along * (1 - 1e-9) ? nearest : along;
 }
 
 PixelRect unite(const PixelRect& a, const PixelRect& b) {
