@@ -55,7 +55,9 @@ std::array<glm::dvec3, 8> cornersOf(const glm::dmat4x3& box) {
 
 // Pixels that the box may cover: its edges clipped to the half space in front of the eye.
 PixelRect coverOf(const std::array<glm::dvec3, 8>& corners, const PlanInput& in) {
-  constexpr double NEAR_W = 1e-4;  // clip-space w; the eye is at 0
+  // Clip-space w 0.1 mm before the eye, whatever the matrix's scale; at the eye it is 0.
+  const glm::dvec3 rise(in.clipFromEye[0].w, in.clipFromEye[1].w, in.clipFromEye[2].w);
+  const double nearW = 1e-4 * glm::length(rise);
   glm::dvec2 lo(1e300);
   glm::dvec2 hi(-1e300);
   const auto add = [&](const glm::dvec4& p) {
@@ -66,17 +68,17 @@ PixelRect coverOf(const std::array<glm::dvec3, 8>& corners, const PlanInput& in)
   std::array<glm::dvec4, 8> clip;
   for (size_t i = 0; i < 8; ++i) {
     clip[i] = in.clipFromEye * glm::dvec4(corners[i], 1.0);
-    if (clip[i].w > NEAR_W) {
+    if (clip[i].w > nearW) {
       add(clip[i]);
     }
   }
   for (size_t i = 0; i < 8; ++i) {
     for (size_t axis = 1; axis < 8; axis <<= 1) {
       const size_t j = i | axis;
-      if (j != i && (clip[i].w > NEAR_W) != (clip[j].w > NEAR_W)) {
-        const double t = (NEAR_W - clip[i].w) / (clip[j].w - clip[i].w);
+      if (j != i && (clip[i].w > nearW) != (clip[j].w > nearW)) {
+        const double t = (nearW - clip[i].w) / (clip[j].w - clip[i].w);
         glm::dvec4 p = clip[i] + (clip[j] - clip[i]) * t;
-        p.w = NEAR_W;
+        p.w = nearW;
         add(p);
       }
     }

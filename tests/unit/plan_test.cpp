@@ -14,8 +14,8 @@ namespace {
 
 using namespace welkin;
 
-// A volume before an eye at the origin that looks along -z.
-PlannedVolume planned(const glm::dmat4x3& box) {
+// A volume before an eye at the origin that looks along -z; `scale`: of the projection.
+PlannedVolume planned(const glm::dmat4x3& box, double scale = 1) {
   PlanVolume volume;
   volume.worldFromBox = box;
   PlanInput in;
@@ -24,7 +24,7 @@ PlannedVolume planned(const glm::dmat4x3& box) {
   in.quality = resolveQuality(make<WlkQuality>());
   in.width = 320;
   in.height = 200;
-  in.clipFromEye = glm::dmat4(1.2, 0, 0, 0, 0, -2, 0, 0, 0, 0, 0, -1, 0, 0, 0.1, 0);
+  in.clipFromEye = scale * glm::dmat4(1.2, 0, 0, 0, 0, -2, 0, 0, 0, 0, 0, -1, 0, 0, 0.1, 0);
   in.volumes = {&volume, 1};
   Plan plan(std::pmr::get_default_resource());
   makePlan(in, plan);
@@ -84,6 +84,20 @@ TEST(Plan, DistanceToRightAnglesIsAlongTheAxes) {
   EXPECT_DOUBLE_EQ(planned(lower).distance, std::sqrt(30.0 * 30 + 350.0 * 350));
   const glm::dmat4x3 around(4, 0, 0, 1, 4, 0, 0, 1, 4, -2, -2, -2);
   EXPECT_EQ(planned(around).distance, 0);
+}
+
+// Clip space may have any scale.
+TEST(Plan, PixelsDoNotDependOnTheScaleOfTheProjection) {
+  const glm::dmat4x3 beside(3, 0, 0, 0, 2, 0, 0, 0, 7, 1, -1, -5);
+  const PixelRect usual = planned(beside).rect;
+  EXPECT_FALSE(usual.empty());
+  for (const double scale : {1e-5, 1e5}) {
+    const PixelRect scaled = planned(beside, scale).rect;
+    EXPECT_EQ(scaled.x0, usual.x0) << scale;
+    EXPECT_EQ(scaled.y0, usual.y0) << scale;
+    EXPECT_EQ(scaled.x1, usual.x1) << scale;
+    EXPECT_EQ(scaled.y1, usual.y1) << scale;
+  }
 }
 
 }  // namespace
