@@ -68,6 +68,9 @@ const bool LISTED = RAYS == RAYS_OF_LIST;
 const float RAY_ENDS = 14.0f;      // optical depth at which a ray ends: 1e-6 of its light is left
 const float LONGEST_RAY = 1.0e7f;  // m inside one volume
 const float MAX_STEPS = 60000.0f;  // the driver ends loops silently at 65535
+// Shortest step as a share of the distance from the point nearest the box's middle: steps are
+// counted from there, and ends of shorter ones would be the same float.
+const float LEAST_STEP = 2.4e-7f;  // 2^-22
 const bool AIR_SEEN = AIR_ENABLED || FOG_ENABLED;
 
 // The ray, affine in the distance s (m) from the point nearest the box's middle.
@@ -195,6 +198,7 @@ void main() {
     float last = span.end - nearest;
     float longest = TRANSPORT ? min(volume.middle.w, gridStep(m.boxStep)) : volume.middle.w;
     float dt = max(longest, (last - s) / MAX_STEPS);
+    dt = max(dt, LEAST_STEP * max(abs(s), abs(last)));
     float shape = TRANSPORT ? pairShape(dot(direction, frame.lights[0].direction.xyz)) : 1.0f;
     vec4 zonal = TRANSPORT ? gridZonal(direction) : vec4(0.0f);
     float first = floor(s / dt) + 1.0f;  // the stretch's far end, in steps
@@ -211,7 +215,8 @@ void main() {
     }
     // The test stands in front: lavapipe goes on with lanes whose loop has ended, so that what a
     // test at the end leaves is computed once more, from arrays that are already a stretch further.
-    while (s < last && eyeDepth * keep < RAY_ENDS) {
+    uint guard = 0u;
+    while (s < last && eyeDepth * keep < RAY_ENDS && guard < 65000u) {
       if (LEAPS) {
         // The stretch takes up those after it in which there is nothing: no sample is lost.
         float here = 0.5f * (s + min(first * dt, last));
@@ -260,6 +265,7 @@ void main() {
       through = passed;
       s = next;
       first += 1.0f;
+      guard += 1u;
     }
     state = vec4(sum, exp(-min(eyeDepth * keep, EXP_CUT)));
   }

@@ -24,6 +24,10 @@ layout(push_constant) uniform Push { ShadowConstants map; };
 
 #include "fields.glsl"
 
+// Optical depth that one sample of a layer counts at most: opaque, and times the square of any
+// distance a float.
+const float LAYER_OPAQUE = 1.0e6f;
+
 void main() {
   uvec2 offset = tileOf(gl_WorkGroupID.xy, gl_NumWorkGroups.xy) * 8u + gl_LocalInvocationID.xy;
   uvec2 texel = uvec2(volume.rect.xy) + offset;
@@ -43,11 +47,12 @@ void main() {
   float first = 0.0f;
   float second = 0.0f;
   float absorbed = 0.0f;
+  float most = (map.flags & SHADOW_LAYER) != 0u ? LAYER_OPAQUE : 3.0e38f;
   float k = 0.5f;
   while (k < count) {  // tested in front, as in eye_march.comp
     float d = inside.begin + k * dt;
     vec4 extinction = fieldExtinction(base + d * volume.along.xyz);
-    float part = dot(extinction, volume.weight) * dt;
+    float part = min(dot(extinction, volume.weight) * dt, most);
     absorbed += dot(extinction, volume.absorbed) * dt;
     depth += part;
     first += part * d;

@@ -133,15 +133,20 @@ vec3 shadowedLight(Air air, AirRay ray, vec3 direction, float reach, float passe
     vec3 source = vec3(0.0f);
     vec3 extinction = vec3(0.0f);
     if (AIR_ENABLED) {
-      vec3 beta = air.airScattering * exp(-max(there.altitude, 0.0f) / air.airScaleHeight);
+      vec3 beta = air.airScattering *
+                  layerDensity(layerExponent(there.altitude, 0.0f, air.airScaleHeight));
       source += beta * airPhase;
       extinction += beta;
     }
     if (FOG_ENABLED) {
-      float height = max(there.altitude - air.fogBaseAltitude, 0.0f);
-      float beta = air.fogExtinction * exp(-height / air.fogScaleHeight);
+      float exponent = layerExponent(there.altitude, air.fogBaseAltitude, air.fogScaleHeight);
+      float beta = air.fogExtinction * layerDensity(exponent);
       source += air.fogAlbedo * droplets * beta;
       extinction += vec3(beta);
+    }
+    if (ABSORBER_ENABLED) {
+      float below = abs(there.altitude - air.absorberPeak) / air.absorberWidth;
+      extinction += air.absorption * max(1.0f - below, 0.0f);
     }
     vec3 x = extinction * step_;
     vec3 average = vec3(phi1(x.x), phi1(x.y), phi1(x.z)) * step_;

@@ -34,6 +34,8 @@ struct AmbientSizes {
   VkDeviceSize workBytes = 0;  // while light is computed; one volume at a time
   VkDeviceSize keptBytes = 0;  // of each volume
 };
+// What a grid is told by beside its uniforms: volume, its version, whether whole, engine's images.
+constexpr size_t AMBIENT_IDS = 3 + size_t{WLK_MAX_FIELDS};
 AmbientSizes ambientSizes(const std::array<uint32_t, 3>& cells);
 
 void fillAmbient(const VolumeState& volume, const TransportShape& shape,

@@ -98,7 +98,7 @@ class AmbientRecorder {
 
 // Whether the grid holds what it would be computed from now; remembers it.
 bool remembered(TransportGrid& grid, const AmbientUniforms& uniforms,
-                const std::array<uint64_t, 3>& ids) {
+                const std::array<uint64_t, AMBIENT_IDS>& ids) {
   constexpr size_t SIZE = sizeof uniforms + sizeof ids;
   std::array<char, SIZE> now;
   std::memcpy(now.data(), &uniforms, sizeof uniforms);
@@ -161,8 +161,13 @@ void recordAmbient(FrameCommands& c, const PlannedVolume& planned, VkDeviceSize 
   c.vk.CmdBindDescriptorSets(c.commands, VK_PIPELINE_BIND_POINT_COMPUTE,
                              c.pipelines.ambientLayout(), 0, 1, &set.set, 0, nullptr);
   AmbientRecorder recorder(c, shape.cells, state.fieldKind(), planned.ambientWhole, stats);
-  const uint64_t whole = planned.ambientWhole ? 1 : 0;
-  const bool same = remembered(grid, uniforms, {planned.id, state.version, whole});
+  std::array<uint64_t, AMBIENT_IDS> ids{planned.id, state.version, planned.ambientWhole ? 1U : 0U};
+  for (uint32_t i = 0; i < state.fieldCount; ++i) {
+    if (state.fields[i].external) {
+      std::memcpy(&ids[3 + i], &volume.externalViews[i], sizeof ids[3 + i]);
+    }
+  }
+  const bool same = remembered(grid, uniforms, ids);
   // Once a frame, by whichever view comes first.
   const bool written = (external || light.external) && light.frame != c.in.frameIndex;
   stats.reason = c.quality.noSkip ? uint32_t{WLK_REASON_NO_SKIP_FLAG} : planned.ambientReason;

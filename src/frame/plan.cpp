@@ -55,7 +55,9 @@ std::array<glm::dvec3, 8> cornersOf(const glm::dmat4x3& box) {
 
 // Pixels that the box may cover: its edges clipped to the half space in front of the eye.
 PixelRect coverOf(const std::array<glm::dvec3, 8>& corners, const PlanInput& in) {
-  constexpr double NEAR_W = 1e-4;  // clip-space w; the eye is at 0
+  // Clip-space w 0.1 mm before the eye, whatever the matrix's scale; at the eye it is 0.
+  const glm::dvec3 rise(in.clipFromEye[0].w, in.clipFromEye[1].w, in.clipFromEye[2].w);
+  const double nearW = 1e-4 * glm::length(rise);
   glm::dvec2 lo(1e300);
   glm::dvec2 hi(-1e300);
   const auto add = [&](const glm::dvec4& p) {
@@ -66,17 +68,17 @@ PixelRect coverOf(const std::array<glm::dvec3, 8>& corners, const PlanInput& in)
   std::array<glm::dvec4, 8> clip;
   for (size_t i = 0; i < 8; ++i) {
     clip[i] = in.clipFromEye * glm::dvec4(corners[i], 1.0);
-    if (clip[i].w > NEAR_W) {
+    if (clip[i].w > nearW) {
       add(clip[i]);
     }
   }
   for (size_t i = 0; i < 8; ++i) {
     for (size_t axis = 1; axis < 8; axis <<= 1) {
       const size_t j = i | axis;
-      if (j != i && (clip[i].w > NEAR_W) != (clip[j].w > NEAR_W)) {
-        const double t = (NEAR_W - clip[i].w) / (clip[j].w - clip[i].w);
+      if (j != i && (clip[i].w > nearW) != (clip[j].w > nearW)) {
+        const double t = (nearW - clip[i].w) / (clip[j].w - clip[i].w);
         glm::dvec4 p = clip[i] + (clip[j] - clip[i]) * t;
-        p.w = NEAR_W;
+        p.w = nearW;
         add(p);
       }
     }
@@ -105,11 +107,33 @@ bool contains(const glm::dmat4x3& box, const glm::dvec3& point) {
          glm::all(glm::lessThanEqual(local, glm::dvec3(1)));
 }
 
-// Distance from the eye (the origin) to the box's nearest point, along its axes.
+// Distance from the eye (the origin) to the box's nearest point: of a box with right angles along
+// its axes, else on an edge or at the foot of the normal on a face.
 double distanceTo(const glm::dmat4x3& box) {
-  const glm::dmat3 linear(box);
-  const glm::dvec3 local = glm::clamp(glm::inverse(linear) * -box[3], 0.0, 1.0);
-  return glm::length(box * glm::dvec4(local, 1.0));
+  const glm::dmat3 inverse = glm::inverse(glm::dmat3(box));
+  const glm::dvec3 local = glm::clamp(inverse * -box[3], 0.0, 1.0);
+  const double along = glm::length(box * glm::dvec4(local, 1.0));
+  double nearest = along;
+  for (int i = 0; i < 3; ++i) {
+    for (int side = 0; side < 4; ++side) {
+      const double first = side & 1;
+      const double second = side >> 1;
+      const glm::dvec3 from = box[3] + box[(i + 1) % 3] * first + box[(i + 2) % 3] * second;
+      const double t = -glm::dot(from, box[i]) / glm::dot(box[i], box[i]);
+      nearest = std::min(nearest, glm::length(from + box[i] * glm::clamp(t, 0.0, 1.0)));
+    }
+    const glm::dvec3 normal(inverse[0][i], inverse[1][i], inverse[2][i]);
+    for (const glm::dvec3& from : {box[3], box[3] + box[i]}) {
+      const glm::dvec3 foot = normal * (glm::dot(from, normal) / glm::dot(normal, normal));
+      glm::dvec3 place = inverse * (foot - box[3]);
+      place[i] = 0;
+      if (place == glm::clamp(place, 0.0, 1.0)) {
+        nearest = std::min(nearest, glm::length(foot));
+      }
+    }
+  }
+  // Rounding must not tell boxes apart that share their nearest point.
+  return nearest < along * (1 - 1e-9) ? nearest : along;
 }
 
 PixelRect unite(const PixelRect& a, const PixelRect& b) {

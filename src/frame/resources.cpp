@@ -224,7 +224,7 @@ void makeAmbient(vk::Device& device, const SliceQuality& quality, uint32_t volum
       AmbientGrid light;
       light.grid.kept =
           vk::Buffer(device, sizes.keptBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
-      light.grid.key.reserve(sizeof(interface_::AmbientUniforms) + 3 * sizeof(uint64_t));
+      light.grid.key.reserve(sizeof(interface_::AmbientUniforms) + AMBIENT_IDS * sizeof(uint64_t));
       return light;
     }));
   }

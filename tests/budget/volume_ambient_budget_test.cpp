@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "support/engine_scene.hpp"
@@ -170,6 +171,36 @@ TEST_F(VolumeAmbientBudget, WithoutAirItNeedsNothing) {
   scene.setFog(1e-4f, 300);
   prepare();
   expectComputed("fog");
+}
+
+// Views of one frame may see different images in a field: what the first computes from the engine's
+// image is not kept as that of the upload.
+TEST_F(VolumeAmbientBudget, OfAnImageOfTheEnginesIsNotThatOfTheUpload) {
+  constexpr uint32_t N = 8;  // voxels along the ball's edges
+  setAmbient(WLK_AMBIENT_AUTOMATIC);
+  const WlkView first = scene.view;
+  // Filled to its faces, as an image counts: the grid has the same place.
+  const WlkVolume volume = scene.addBall(0.01f);
+  scene.upload(volume, {N, N, N}, std::vector<float>(size_t{N} * N * N, 1.0f));
+  const std::array views{first, scene.addView(small())};
+  scene.view = views[1];
+  scene.setCamera({0, 2, 0}, 0, 12);
+  scene.view = first;
+  prepare();
+  scene.renderFrame();
+  const Image uploaded = scene.read();
+  const SpyImage image(scene.device(), VK_FORMAT_R32_SFLOAT, {N, N, N},
+                       VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+  std::fill_n(reinterpret_cast<float*>(image.bytes()), size_t{N} * N * N, 0.25f);
+  image.write(VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+  const WlkVulkanImage described = scene.describe(image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+  check(wlkVulkanSetVolumeImage(scene.context, volume, 0, &described));
+  scene.betweenViews = [&] { check(wlkVulkanSetVolumeImage(scene.context, volume, 0, nullptr)); };
+  scene.renderFrames(views);
+  EXPECT_TRUE(scene.read() == uploaded) << "the second view";
+  scene.renderFrame();
+  EXPECT_TRUE(scene.read() == uploaded) << "the next frame";
+  check(wlkVulkanForgetImage(scene.context, image.handle));
 }
 
 TEST_F(VolumeAmbientBudget, SingleScatteringHasNone) {

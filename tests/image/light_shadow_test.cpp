@@ -228,7 +228,62 @@ TEST_F(LightShadowTest, AllInShadowHasNoFirstOrder) {
   }
 }
 
-// Beside the volumes' own map the engine's is still read.
+// The layer's density grows on below its base, in the shadow as in the light.
+TEST_F(LightShadowTest, FogIsTheSameByAnyBase) {
+  scene.setSun(35, 270);
+  const Image lit = plain();
+  const Image dark = uniform(0.0f);
+  auto fog = make<WlkFog>();
+  fog.baseAltitude = 1000;  // above all that is seen
+  fog.scaleHeight = static_cast<float>(SCALE_HEIGHT);
+  fog.extinction = static_cast<float>(EXTINCTION * std::exp(-1000 / SCALE_HEIGHT));
+  check(wlkSetFog(scene.context, &fog));
+  EXPECT_LT(relativeRms(plain(), lit), FIRST_ORDER);
+  const Image other = uniform(0.0f);
+  for (size_t i = 0; i < lit.rgba.size(); ++i) {
+    if (i % 4 != 3) {
+      ASSERT_LT(other.rgba[i], (MIDPOINTS + FIRST_ORDER) * lit.rgba[i]) << i;
+      ASSERT_LT(dark.rgba[i], (MIDPOINTS + FIRST_ORDER) * lit.rgba[i]) << i;
+    }
+  }
+}
+
+// What the near half of the air and what the far half scatters is all: a gas between dims both.
+TEST_F(LightShadowTest, HalvesAddUpInAGasThatAbsorbs) {
+  check(wlkSetFog(scene.context, nullptr));
+  scene.setSky();
+  auto gas = make<WlkAbsorber>();
+  std::fill_n(gas.absorption, 3, 2e-3f);
+  gas.peakAltitude = 400;
+  gas.halfWidth = 1500;
+  check(wlkSetAbsorber(scene.context, &gas));
+  scene.setSun(35, 270);
+  const Image lit = plain();
+  auto shadow = make<WlkLightShadow>();
+  const LightFrame all({0, 0, 0}, 8000, directionTo(35, 270));
+  all.write({0, 0, 0}, false, shadow.clipFromWorld[0]);
+  std::array<Image, 2> halves;
+  for (const bool near : {false, true}) {
+    // Along u, the map's edge is at z = -500 m.
+    std::vector<float> map;
+    for (size_t i = 0; i < size_t{TEXELS} * TEXELS; ++i) {
+      map.push_back((i % TEXELS >= 28) == near ? 0.0f : 1.0f);
+    }
+    halves[near ? 1 : 0] = shaded(shadow, map);
+    EXPECT_LT(halves[near ? 1 : 0].mean(), 0.9 * lit.mean()) << "nothing to see";
+  }
+  double worst = 0;
+  for (size_t i = 0; i < lit.rgba.size(); ++i) {
+    if (i % 4 != 3) {
+      const double sum = double{halves[0].rgba[i]} + double{halves[1].rgba[i]};
+      worst = std::max(worst, std::abs(sum / double{lit.rgba[i]} - 1));
+    }
+  }
+  std::printf("halves in a gas: sum within %.4f\n", worst);
+  EXPECT_LT(worst, EDGES + MIDPOINTS + FIRST_ORDER);
+}
+
+// Beside the volumes own map the engine's is still read.
 TEST_F(LightShadowTest, HoldsWithShadowsOfVolumesAsWell) {
   scene.setSun(35, 270);
   scene.addBall(0.01f);

@@ -195,5 +195,37 @@ TEST(ShadowMapExtremes, AreFinite) {
   }
 }
 
+// The widest and densest volume that is accepted, of several fields: distances along the light,
+// squared, times its optical depth would be no float.
+TEST(ShadowMapExtremes, OfTheMostThatIsAcceptedAreFinite) {
+  Info info = small();
+  info.content = WLK_CLOUD_SHADOW_LAYER;
+  ShadowMapScene s(info);
+  s.scene.setSun(71.565, 90);  // along the longest diagonal
+  const WlkMedium medium = s.scene.addHenyeyGreenstein(0);
+  const std::array<WlkVolumeField, 2> fields{WlkVolumeField{medium, 1e6f, 0},
+                                             WlkVolumeField{medium, 1e6f, 0}};
+  auto volume = make<WlkVolumeInfo>();
+  std::fill_n(volume.size, 3, 1u);
+  volume.fieldCount = 2;
+  volume.fields = fields.data();
+  const std::array<double, 12> place{1e9, -1e9, -1e9, 5e8, 1e9, 1e9, -1e9, -5e8, 1e9, 0, 1e9, -1e9};
+  std::copy(place.begin(), place.end(), volume.worldFromVolume);
+  WlkVolume made{};
+  check(wlkCreateVolume(s.scene.context, &volume, &made));
+  for (uint32_t field = 0; field < 2; ++field) {
+    s.scene.upload(made, {1, 1, 1}, {65504.0f}, field);
+  }
+  check(wlkPrepare(s.scene.context));
+  s.record();
+  const std::vector<float> texels = s.read();
+  for (size_t i = 0; i < texels.size(); i += 4) {
+    ASSERT_TRUE(std::isfinite(texels[i]) && texels[i] >= 1e6f) << i;
+    ASSERT_TRUE(std::isfinite(texels[i + 1]) && std::isfinite(texels[i + 2])) << i;
+    ASSERT_LT(texels[i + 1], texels[i + 2]) << i;
+  }
+  EXPECT_TRUE(s.scene.device().messages().empty()) << s.scene.device().messages().front();
+}
+
 }  // namespace
 }  // namespace welkin::test

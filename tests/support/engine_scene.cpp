@@ -98,6 +98,9 @@ FrameCounts EngineScene::renderFrames(std::span<const WlkView> views) {
     counts.update = SpyDevice::counts();
     SpyDevice::counts() = {};
     for (const WlkView one : views) {
+      if (betweenViews && one.id != views.front().id) {
+        betweenViews();
+      }
       const WlkResult last = wlkVulkanCmdRenderView(context, commands, one, &images);
       result = result == WLK_SUCCESS ? last : result;
     }

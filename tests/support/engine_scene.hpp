@@ -49,6 +49,8 @@ class EngineScene : private SpiedEngine, public SceneBuilder {
   const WlkVulkanImage* shadowMap = nullptr;
   // More targets for the frames to come.
   std::function<void(WlkVulkanViewTargets&)> addTargets;
+  // Called between the views of one frame.
+  std::function<void()> betweenViews;
 
   static WlkVulkanImage describe(const SpyImage& image, VkImageLayout layout);
   // What the frame's wlkVulkanCmdRenderView gets; `color` must live for the call.
