@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a picture of fields may not depend on: whether their contents came before or after
-// wlkPrepare, and what they held before.
+// wlkPrepare, what they held before, and in which format the first of them came.
 #include <gtest/gtest.h>
 
 #include "support/headless_scene.hpp"
@@ -90,6 +90,32 @@ TEST(FieldOrder, ContentsThatChangeLookAsIfTheyHadAlwaysBeenThere) {
   // A share that moves by less than 0.05 waits for wlkPrepare; by 0.02 it cost 0.053.
   EXPECT_LT(relativeRms(s.renderUnprepared(), mixed), 0.07);
   EXPECT_TRUE(s.scene.render() == mixed);
+}
+
+// A half float's last step is 6e-8.
+TEST(FieldOrder, FloatsStayFloatsAfterBytes) {
+  std::array<Image, 2> images;
+  for (const bool bytesFirst : {false, true}) {
+    const HeadlessScene scene(withAllLight());
+    scene.setSun(30, 20);
+    const WlkVolume volume =
+        scene.addVolume(scene.addMedium(), SIZE, boxTransform(CORNER, EDGES), 1e6f);
+    if (bytesFirst) {
+      const std::vector<uint8_t> bytes(512, 1);
+      auto upload = make<WlkVolumeUpload>();
+      upload.format = WLK_FORMAT_R8_UNORM;
+      std::copy(SIZE.begin(), SIZE.end(), upload.extent);
+      upload.data = bytes.data();
+      upload.dataSize = bytes.size();
+      check(wlkUploadVolume(scene.context, volume, &upload));
+      scene.render();
+    }
+    scene.upload(volume, SIZE, std::vector<float>(512, 1e-8f));
+    images[bytesFirst ? 1 : 0] = scene.render();
+    EXPECT_TRUE(scene.messages().empty());
+  }
+  EXPECT_GT(images[0].mean(), 0);
+  EXPECT_TRUE(images[1] == images[0]);
 }
 
 }  // namespace
