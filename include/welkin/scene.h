@@ -371,7 +371,8 @@ typedef struct WlkVolumeUpload {
   const void* next;
   /** Index of the field. Default 0. */
   uint32_t field;
-  /** WLK_FORMAT_R32_FLOAT, R16_FLOAT or R8_UNORM. Default R32_FLOAT. */
+  /** WLK_FORMAT_R32_FLOAT, R16_FLOAT or R8_UNORM. A field keeps half floats of what came as these
+   *  two, until all of its voxels come as R32_FLOAT at once. Default R32_FLOAT. */
   uint32_t format;
   /** First voxel. Default 0. */
   uint32_t offset[3];

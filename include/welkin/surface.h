@@ -91,8 +91,8 @@ WLK_API WlkResult wlkSetSurfaceDetail(WlkContext context, WlkSurface surface,
                                       const WlkSurfaceDetail* detail);
 /** New places of all vertices between the same triangles, for animation; as WlkSurfaceInfo has
  * them. Vertices that were at one place when the surface was created stay together: the place of
- * the last of them counts. [C] Errors: INVALID_ARGUMENT (positions; vertexCount other than at
- * creation; vertexStride), OUT_OF_*. */
+ * the last of them counts; those that no triangle uses do not. [C] Errors: INVALID_ARGUMENT
+ * (positions; vertexCount other than at creation; vertexStride), OUT_OF_*. */
 WLK_API WlkResult wlkSetSurfacePositions(WlkContext context, WlkSurface surface,
                                          const float* positions, uint32_t vertexCount,
                                          uint32_t vertexStride);

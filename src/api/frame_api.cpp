@@ -13,11 +13,16 @@
 #include "api/plan_input.hpp"
 #include "api/sky_light.hpp"
 #include "api/surface_data.hpp"
+#include "api/volume_media.hpp"
 #include "frame/light_store.hpp"
 
 namespace {
 
 using namespace welkin;
+
+// Of a field's share in its volume's extinction, beyond which an update does not wait for
+// wlkPrepare: contents that flow must not have every frame make tables.
+constexpr double SHARE_CHANGE = 0.05;
 
 constexpr WlkVulkanImageState NOTHING{VK_IMAGE_LAYOUT_UNDEFINED, 0, VK_PIPELINE_STAGE_2_NONE,
                                       VK_ACCESS_2_NONE};
@@ -234,6 +239,7 @@ void recordUpdate(WlkContext_T& c, VkCommandBuffer commands) {
   } else {
     advanceSkyLight(c);
   }
+  renewMedia(c, SHARE_CHANGE);
   // Room first: from the first command on nothing may throw.
   c.retired.reserve(c.retired.size() + c.pending.size() + 1 +
                     size_t{SCATTERING_FORMS} * c.volumes.count() + c.surfaces.count() + 2);

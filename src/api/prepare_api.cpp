@@ -9,6 +9,7 @@
 #include "api/plan_input.hpp"
 #include "api/sky_light.hpp"
 #include "api/surface_data.hpp"
+#include "api/volume_media.hpp"
 #include "frame/light_store.hpp"
 
 using namespace welkin;
@@ -40,6 +41,7 @@ WlkResult wlkPrepare(WlkContext context) {
     const auto start = std::chrono::steady_clock::now();
     uint32_t prepared = 0;
     prepareLeaps(c);
+    renewMedia(c, 0);
     std::array<bool, FIELD_KINDS> used{};
     for (uint32_t i = 0; i < c.volumes.slotCount(); ++i) {
       if (VolumeState* volume = c.volumes.at(i)) {

@@ -237,6 +237,9 @@ WlkResult wlkSetSurfacePositions(WlkContext context, WlkSurface surface, const f
     state.newLow.fill(SURFACE_POSITION_MAX);
     state.newHigh.fill(-SURFACE_POSITION_MAX);
     for (size_t i = 0; i < vertexCount; ++i) {
+      if (state.placeOf[i] == NO_PLACE) {
+        continue;
+      }
       const std::array<float, 3> place = vertexAt(positions, vertexStride, i);
       std::memcpy(static_cast<char*>(state.newVertices.data()) + PLACE * state.placeOf[i],
                   place.data(), PLACE);

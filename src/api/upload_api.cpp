@@ -74,6 +74,16 @@ void checkReplaces(const VolumeState& state, const WlkVolumeUpload& u) {
   }
 }
 
+// Whether voxels of `format` go into the image that the field has. Floats that replace all of a
+// field of half floats get an image of their own: values that came first, in a narrower format,
+// must not cost what comes later its digits.
+bool fits(const VolumeState& state, const FieldState& field, const WlkVolumeUpload& u,
+          VkFormat format) {
+  const bool whole = std::equal(state.size.begin(), state.size.end(), u.extent);
+  return field.image && field.atlas[0] == 0 &&
+         !(whole && format == VK_FORMAT_R32_SFLOAT && field.image.info().format != format);
+}
+
 // Once no field has bricks.
 void dropPages(WlkContext_T& c, uint64_t volume, VolumeState& state, Retired& room) {
   const bool used = std::any_of(state.fields.begin(), state.fields.end(),
@@ -132,14 +142,13 @@ WlkResult wlkUploadVolume(WlkContext context, WlkVolume volume, const WlkVolumeU
     checkUpload(state, u);
     FieldState& field = state.fields[u.field];
     vk::Device& device = c.requireDevice("wlkUploadVolume");
-    const bool bricks = field.atlas[0] > 0;
-    if (bricks) {
+    if (field.atlas[0] > 0) {
       checkReplaces(state, u);
     }
     vk::Image image;
     VkFormat format =
         u.format == WLK_FORMAT_R32_FLOAT ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R16_SFLOAT;
-    if (field.image && !bricks) {
+    if (fits(state, field, u, format)) {
       format = field.image.info().format;
     } else {
       image = makeFieldImage(device, format, state.size);

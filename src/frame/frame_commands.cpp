@@ -41,6 +41,9 @@ void FrameCommands::dispatchIndirect(VkPipeline pipeline, VkBuffer counts, WlkPa
 }
 
 void FrameCommands::timestamp(uint32_t index) {
+  if (!device.timestamps()) {
+    return;
+  }
   const auto query = static_cast<uint32_t>(slot.passOfQuery.size()) + (index == ~0u ? 0 : 1);
   if (index != ~0u) {
     slot.passOfQuery.push_back(index);

@@ -24,9 +24,8 @@ void harvest(vk::Device& device, ViewState& view, uint64_t completed) {
     }
     view.harvestedFrame = slot.frameIndex;
     view.nonFinite = count;
-    const double period = static_cast<double>(device.properties().limits.timestampPeriod);
     uint64_t before = 0;
-    for (uint32_t query = 0; query <= slot.passOfQuery.size(); ++query) {
+    for (uint32_t query = 0; device.timestamps() && query <= slot.passOfQuery.size(); ++query) {
       uint64_t now = 0;
       if (device.vk().GetQueryPoolResults(device.handle(), slot.queries, query, 1, sizeof now, &now,
                                           sizeof now, VK_QUERY_RESULT_64_BIT) != VK_SUCCESS) {
@@ -34,7 +33,7 @@ void harvest(vk::Device& device, ViewState& view, uint64_t completed) {
       }
       if (query > 0) {
         slot.passes[slot.passOfQuery[query - 1]].nanoseconds +=
-            static_cast<uint64_t>(static_cast<double>(now - before) * period);
+            static_cast<uint64_t>(device.nanoseconds(before, now));
       }
       before = now;
     }

@@ -27,6 +27,10 @@ glm::dvec3 eyeOf(const ViewState& view) {
   return {view.camera.position[0], view.camera.position[1], view.camera.position[2]};
 }
 
+bool differ(const WlkVulkanImageState& a, const WlkVulkanImageState& b) {
+  return a.layout != b.layout || a.stages != b.stages || a.access != b.access;
+}
+
 class Recorder {
  public:
   Recorder(vk::Device& device, const vk::Pipelines& pipelines, VkCommandBuffer commands,
@@ -245,8 +249,9 @@ class Recorder {
       if (!*images[i]) {
         continue;
       }
+      // Of an image that nothing was drawn on, too: the engine waits for `after` alone.
       const WlkVulkanImageState& from = used(i) ? work_[i] : images[i]->before;
-      if (used(i) || from.layout != images[i]->after.layout) {
+      if (used(i) || differ(from, images[i]->after)) {
         c_.image(images[i]->image, images[i]->range, from, images[i]->after);
       }
     }

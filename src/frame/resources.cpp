@@ -400,16 +400,20 @@ void destroyView(vk::Device& device, ViewState& view) {
   Draft::destroyObjects(device, view.resources);
 }
 
-void prepareMedia(vk::Device& device, VolumeState& volume) {
-  if (volume.transport) {
-    return;
-  }
+vk::Buffer replaceMedia(vk::Device& device, VolumeState& volume) {
   auto media = std::make_shared<const TransportMedia>(transportMedia(volume));
   vk::Buffer table(device, media->response.size() * sizeof(float),
                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true);
   std::memcpy(table.data(), media->response.data(), media->response.size() * sizeof(float));
-  volume.pairTable = std::move(table);
+  std::swap(volume.pairTable, table);
   volume.transport = std::move(media);
+  return table;
+}
+
+void prepareMedia(vk::Device& device, VolumeState& volume) {
+  if (!volume.transport) {
+    replaceMedia(device, volume);
+  }
 }
 
 void prepareVolume(vk::Device& device, VolumeState& volume, uint32_t form) {

@@ -51,6 +51,8 @@ void destroyView(vk::Device& device, ViewState& view);
 void prepareVolume(vk::Device& device, VolumeState& volume, uint32_t form);
 // What the light of the grids of cells depends on.
 void prepareMedia(vk::Device& device, VolumeState& volume);
+// The same anew; returns the table that frames in flight may read. Strong guarantee.
+vk::Buffer replaceMedia(vk::Device& device, VolumeState& volume);
 
 constexpr VkDeviceSize FOG_CURVE_BYTES = sizeof(FogPhaseState::curve);
 

@@ -73,6 +73,7 @@ class ShadowRecorder {
                  ShadowMapState& map, const ShadowMapInput& input, const TargetImage& target,
                  bool half)
       : vk_(device.vk()),
+        timestamps_(device.timestamps()),
         pipelines_(pipelines),
         commands_(commands),
         map_(map),
@@ -192,8 +193,7 @@ class ShadowRecorder {
 
   void record() {
     vk_.CmdResetQueryPool(commands_, r_.queries, 2 * in_.slot, 2);
-    vk_.CmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, r_.queries,
-                           2 * in_.slot);
+    timestamp(2 * in_.slot);
     image(target_.before, WRITTEN);
     // The frame before may still read the sums.
     barrier(COMPUTE, SUMS, FILL, VK_ACCESS_2_TRANSFER_WRITE_BIT);
@@ -216,8 +216,7 @@ class ShadowRecorder {
     bind(nullptr, rank);
     dispatch(find(resolveKey()), map_.info.width, map_.info.height);
     image(WRITTEN, target_.after);
-    vk_.CmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, r_.queries,
-                           2 * in_.slot + 1);
+    timestamp(2 * in_.slot + 1);
     r_.slots[in_.slot].frameIndex = in_.frameIndex;
     result_.recorded = 1;
     map_.image = target_.image;
@@ -226,6 +225,12 @@ class ShadowRecorder {
     std::swap(r_.key, now_);
     if (external_) {
       r_.key.clear();  // what was uploaded may be back in the next frame
+    }
+  }
+
+  void timestamp(uint32_t query) {
+    if (timestamps_) {
+      vk_.CmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, r_.queries, query);
     }
   }
 
@@ -283,6 +288,7 @@ class ShadowRecorder {
   }
 
   const vk::Dispatch& vk_;
+  bool timestamps_;
   const vk::Pipelines& pipelines_;
   VkCommandBuffer commands_;
   ShadowMapState& map_;
@@ -365,13 +371,12 @@ void harvestShadowMap(const vk::Device& device, ShadowMapState& map, uint64_t co
       continue;
     }
     std::array<uint64_t, 2> times{};
-    const VkResult result = device.vk().GetQueryPoolResults(
-        device.handle(), r.queries, static_cast<uint32_t>(2 * i), 2, sizeof times, times.data(),
-        sizeof times[0], VK_QUERY_RESULT_64_BIT);
-    if (result == VK_SUCCESS && slot.frameIndex > newest) {
+    if (device.timestamps() && slot.frameIndex > newest &&
+        device.vk().GetQueryPoolResults(device.handle(), r.queries, static_cast<uint32_t>(2 * i), 2,
+                                        sizeof times, times.data(), sizeof times[0],
+                                        VK_QUERY_RESULT_64_BIT) == VK_SUCCESS) {
       newest = slot.frameIndex;
-      const double period = static_cast<double>(device.properties().limits.timestampPeriod);
-      map.gpuTime_ns = static_cast<uint64_t>(static_cast<double>(times[1] - times[0]) * period);
+      map.gpuTime_ns = static_cast<uint64_t>(device.nanoseconds(times[0], times[1]));
     }
     slot.frameIndex = 0;
   }

@@ -56,7 +56,7 @@ struct SurfaceState {
   std::array<float, 3> high{};
   std::array<float, 3> newLow{};  // of those to be uploaded
   std::array<float, 3> newHigh{};
-  std::pmr::vector<uint32_t> placeOf;  // of the engine's vertices, among those of the GPU
+  std::pmr::vector<uint32_t> placeOf;  // of the engine's vertices, or NO_PLACE
   uint32_t places = 0;
   uint32_t triangles = 0;
   vk::Buffer vertices;

@@ -28,18 +28,28 @@ double meanAlbedo(const FieldState& field) {
   return (albedo[0] + albedo[1] + albedo[2]) / 3;
 }
 
-// Shares of the fields in the volume's extinction.
-std::vector<double> fieldWeights(const VolumeState& volume) {
-  std::vector<double> weights(volume.fieldCount);
+// Shares of the fields in the volume's extinction; all 0 where there is none.
+std::array<double, WLK_MAX_FIELDS> fieldShares(const VolumeState& volume) {
+  std::array<double, WLK_MAX_FIELDS> shares{};
   double sum = 0;
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
     const FieldState& field = volume.fields[i];
     const double mean = field.external ? 1.0 : field.mean;
-    weights[i] = field.extinctionScale * field.medium.extinctionFactor() * mean;
-    sum += weights[i];
+    shares[i] = field.extinctionScale * field.medium.extinctionFactor() * mean;
+    sum += shares[i];
   }
-  for (double& weight : weights) {
-    weight = sum > 0 ? weight / sum : 1.0 / volume.fieldCount;
+  for (double& share : shares) {
+    share = sum > 0 ? share / sum : 0.0;
+  }
+  return shares;
+}
+
+// The same with sum 1: fields count alike while nothing is there.
+std::vector<double> fieldWeights(const VolumeState& volume,
+                                 const std::array<double, WLK_MAX_FIELDS>& shares) {
+  std::vector<double> weights(shares.begin(), shares.begin() + volume.fieldCount);
+  if (std::all_of(weights.begin(), weights.end(), [](double weight) { return weight == 0; })) {
+    weights.assign(volume.fieldCount, 1.0 / volume.fieldCount);
   }
   return weights;
 }
@@ -266,7 +276,8 @@ static void fillFineKernel(const VolumeState& volume,
 
 TransportMedia transportMedia(const VolumeState& volume) {
   TransportMedia media;
-  const std::vector<double> weights = fieldWeights(volume);
+  media.shares = fieldShares(volume);
+  const std::vector<double> weights = fieldWeights(volume, media.shares);
   std::vector<const TransportPhase*> phases;
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
     const FieldState& field = volume.fields[i];
@@ -307,6 +318,18 @@ TransportMedia transportMedia(const VolumeState& volume) {
   media.response = pairs.response;
   media.response.insert(media.response.end(), pairs.once.begin(), pairs.once.end());
   return media;
+}
+
+double shareChange(const VolumeState& volume) {
+  if (volume.fieldCount == 1) {
+    return 0;  // the only one
+  }
+  const std::array<double, WLK_MAX_FIELDS> now = fieldShares(volume);
+  double most = 0;
+  for (uint32_t i = 0; i < volume.fieldCount; ++i) {
+    most = std::max(most, std::abs(now[i] - volume.transport->shares[i]));
+  }
+  return most;
 }
 
 float extinctionAtOne(const FieldState& field) {

@@ -47,8 +47,12 @@ struct TransportMedia {
   std::array<glm::dvec3, FINE_NODES> fineKernel{};
   std::array<glm::vec4, 24> products{};
   std::vector<float> response;  // RGBA, see PAIR_TABLE_NODES
+  // Of the fields in the extinction, by which all these are means; all 0: nothing was there yet.
+  std::array<double, WLK_MAX_FIELDS> shares{};
 };
 TransportMedia transportMedia(const VolumeState& volume);
+// The largest change of a field's share since the volume's media were made.
+double shareChange(const VolumeState& volume);
 // Mean over the colours of a function of the pair table at a scattering angle.
 double transportPair(const TransportMedia& media, size_t function, double angle);
 

@@ -53,7 +53,8 @@ void checkInput(std::span<const float> positions, std::span<const uint32_t> indi
   }
 }
 
-// Fills `mesh.positions` with the different places that are used; returns each vertex's place.
+// Fills `mesh.positions` with the different places that are used; returns each vertex's place,
+// NO_PLACE of those that are not.
 std::vector<uint32_t> weld(std::span<const float> positions, std::span<const uint32_t> indices,
                            SurfaceMesh& mesh) {
   const size_t vertices = positions.size() / 3;
@@ -64,7 +65,7 @@ std::vector<uint32_t> weld(std::span<const float> positions, std::span<const uin
   std::vector<uint32_t> order(indices.begin(), indices.end());
   std::sort(order.begin(), order.end(),
             [&](uint32_t a, uint32_t b) { return place(a) < place(b); });
-  std::vector<uint32_t> welded(vertices, 0);
+  std::vector<uint32_t> welded(vertices, NO_PLACE);
   for (const uint32_t vertex : order) {
     if (mesh.positions.empty() || mesh.positions.back() != place(vertex)) {
       mesh.positions.push_back(place(vertex));

@@ -16,11 +16,12 @@ namespace welkin {
 
 constexpr size_t SURFACE_TRIANGLES_MAX = size_t{1} << 22;
 constexpr float SURFACE_POSITION_MAX = 1e7f;  // m, of each coordinate
+constexpr uint32_t NO_PLACE = ~0U;            // of a vertex that no triangle uses
 
 struct SurfaceMesh {
   std::vector<std::array<float, 3>> positions;     // no two are equal
   std::vector<std::array<uint32_t, 3>> triangles;  // none has zero area; normals face outwards
-  std::vector<uint32_t> placeOf;                   // of each vertex that came, in `positions`
+  std::vector<uint32_t> placeOf;                   // of each vertex that came, or NO_PLACE
   std::array<float, 3> low{};                      // of the box around them
   std::array<float, 3> high{};
   double area_m2 = 0;

@@ -27,6 +27,7 @@ Device::Device(const DeviceInfo& info, std::pmr::memory_resource* host) : info_(
     }
   }
   loadDeviceFunctions(vk_, info.device, info.headless);
+  timestampMask_ = timestampMask();
   memory_.emplace(vk_, info.physicalDevice, info.device, info.memoryLimit, host);
 }
 
@@ -36,14 +37,17 @@ bool Device::supports(VkFormat format, VkFormatFeatureFlags features) const {
   return (properties.optimalTilingFeatures & features) == features;
 }
 
-bool Device::timestamps() const {
+uint64_t Device::timestampMask() const {
   constexpr uint32_t MOST = 32;
   std::array<VkQueueFamilyProperties, MOST> families{};
   uint32_t count = MOST;
   vk_.GetPhysicalDeviceQueueFamilyProperties(info_.physicalDevice, &count, families.data());
   const uint32_t family = info_.queueFamilyIndex;
-  return family < std::min(count, MOST) && families[family].timestampValidBits > 0 &&
-         properties_.limits.timestampPeriod > 0;
+  if (family >= std::min(count, MOST) || families[family].timestampValidBits == 0 ||
+      !(properties_.limits.timestampPeriod > 0)) {
+    return 0;
+  }
+  return ~uint64_t{0} >> (64 - std::min(families[family].timestampValidBits, 64U));
 }
 
 Buffer::Buffer(Device& device, VkDeviceSize size, VkBufferUsageFlags usage, bool hostVisible)

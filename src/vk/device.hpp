@@ -37,12 +37,19 @@ class Device {
   DeviceMemory& memory() { return *memory_; }
   bool supports(VkFormat format, VkFormatFeatureFlags features) const;
   // Whether the queue writes timestamps.
-  bool timestamps() const;
+  bool timestamps() const { return timestampMask_ != 0; }
+  // Between two timestamps of the queue, which starts again at 0 after its last valid bit.
+  double nanoseconds(uint64_t from, uint64_t to) const {
+    return static_cast<double>((to - from) & timestampMask_) *
+           static_cast<double>(properties_.limits.timestampPeriod);
+  }
 
  private:
+  uint64_t timestampMask() const;
   DeviceInfo info_;
   Dispatch vk_;
   VkPhysicalDeviceProperties properties_{};
+  uint64_t timestampMask_ = 0;  // their valid bits; 0: none
   std::optional<DeviceMemory> memory_;
 };
 

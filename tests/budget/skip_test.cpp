@@ -87,6 +87,28 @@ class Skip : public ::testing::Test {
   EngineScene scene;
 };
 
+// The engine's next pass waits for what wrote the image before, drawn or not.
+TEST_F(Skip, AnImageThatNothingIsDrawnOnTakesOneBarrierToAnotherState) {
+  scene.inPlace = true;
+  WlkVulkanImage color = EngineScene::describe(scene.target(), VK_IMAGE_LAYOUT_GENERAL);
+  scene.addTargets = [&](WlkVulkanViewTargets& targets) {
+    targets.color = targets.colorInput = &color;
+  };
+  const WlkVulkanImageState same = color.after;
+  EXPECT_EQ(render().view.barriers, 0u);
+  color.after.stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+  EXPECT_EQ(render().view.barriers, 1u);
+  color.after = same;
+  color.after.access = VK_ACCESS_2_MEMORY_READ_BIT;
+  EXPECT_EQ(render().view.barriers, 1u);
+  color.after = same;
+  EXPECT_EQ(render().view.barriers, 0u);
+  color.after.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+  const FrameCounts counts = render();
+  EXPECT_EQ(counts.view.barriers, 1u);
+  EXPECT_EQ(counts.view.dispatches + counts.view.draws, 0u);
+}
+
 TEST_F(Skip, AnEmptySceneOnTheEnginesImageRecordsNothingAtAll) {
   scene.inPlace = true;
   const FrameCounts counts = render();

@@ -166,6 +166,28 @@ TEST_F(SurfaceImage, MovedMeshesShowInTheNextFrame) {
   EXPECT_LT(relativeRms(moved, fresh), 1e-4);  // places are floats in one of them
 }
 
+// Buffers shared by meshes hold vertices of others.
+TEST_F(SurfaceImage, VerticesThatNoTriangleUsesMoveNothing) {
+  SurfaceArrays arrays(support::boxMesh());
+  arrays.positions.insert(arrays.positions.end(), {9, 7, 8});
+  WlkSurfaceInfo info = arrays.info(scene.addHenyeyGreenstein(0), EXTINCTION);
+  place(info, HALF, MIDDLE);
+  WlkSurface surface{};
+  check(wlkCreateSurface(scene.context, &info, &surface));
+  scene.setSun(40, 60);
+  EXPECT_GT(expectChords({0, 2, 0}), 30);
+  const Image before = scene.read(WLK_IMAGE_RADIANCE);
+  EXPECT_GT(before.mean(), 0);
+  check(wlkSetSurfacePositions(scene.context, surface, arrays.positions.data(), 9, 12));
+  EXPECT_GT(expectChords({0, 2, 0}), 30);
+  EXPECT_TRUE(scene.read(WLK_IMAGE_RADIANCE) == before);
+  // Nor does the box see where they are.
+  arrays.positions[24] = -500;
+  check(wlkSetSurfacePositions(scene.context, surface, arrays.positions.data(), 9, 12));
+  EXPECT_GT(expectChords({0, 2, 0}), 30);
+  EXPECT_TRUE(scene.read(WLK_IMAGE_RADIANCE) == before);
+}
+
 TEST_F(SurfaceImage, FramesRepeatAndKeepTheLight) {
   addSurface(scene, support::torusMesh(), scene.addMedium(), 0.01f, {900, 900, 900}, MIDDLE);
   scene.setSun(40, 60);

@@ -43,13 +43,15 @@ namespace {
   X(DestroyDescriptorPool, destroyed)      \
   X(DestroyQueryPool, destroyed)           \
   X(AllocateMemory, allocated)             \
-  X(AllocateDescriptorSets, allocated)
+  X(AllocateDescriptorSets, allocated)     \
+  X(CmdWriteTimestamp2, timestamps)
 
 enum Spied {
 #define WELKIN_INDEX(name, counter) SPIED_##name,
   WELKIN_SPIED(WELKIN_INDEX)
 #undef WELKIN_INDEX
       SPIED_UpdateDescriptorSets,
+  SPIED_GetQueryPoolResults,
   SPIED_COUNT
 };
 
@@ -59,6 +61,9 @@ struct Spy {
   std::set<std::string> asked;
   PFN_vkGetDeviceProcAddr deviceProc = nullptr;
   std::array<PFN_vkVoidFunction, SPIED_COUNT> real{};
+  bool fakes = false;
+  uint32_t timestampBits = 0;
+  uint64_t clock = 0;
 };
 Spy spied;
 
@@ -82,6 +87,28 @@ VKAPI_ATTR void VKAPI_CALL updateDescriptorSets(VkDevice device, uint32_t writeC
       device, writeCount, writes, copyCount, copies);
 }
 
+VKAPI_ATTR VkResult VKAPI_CALL getQueryPoolResults(VkDevice device, VkQueryPool pool,
+                                                   uint32_t first, uint32_t count, size_t size,
+                                                   void* data, VkDeviceSize stride,
+                                                   VkQueryResultFlags flags) {
+  const VkResult result = reinterpret_cast<PFN_vkGetQueryPoolResults>(
+      spied.real[SPIED_GetQueryPoolResults])(device, pool, first, count, size, data, stride, flags);
+  for (uint32_t i = 0; spied.fakes && i < count; ++i) {
+    const uint64_t now = spied.clock & ((uint64_t{1} << spied.timestampBits) - 1);
+    std::memcpy(static_cast<char*>(data) + i * stride, &now, sizeof now);
+    spied.clock += SpyDevice::TICK;
+  }
+  return result;
+}
+
+VKAPI_ATTR void VKAPI_CALL queueFamilies(VkPhysicalDevice physical, uint32_t* count,
+                                         VkQueueFamilyProperties* families) {
+  vkGetPhysicalDeviceQueueFamilyProperties(physical, count, families);
+  for (uint32_t i = 0; families != nullptr && i < *count; ++i) {
+    families[i].timestampValidBits = spied.timestampBits;
+  }
+}
+
 struct Replacement {
   const char* name;
   PFN_vkVoidFunction function;
@@ -95,6 +122,7 @@ const std::array<Replacement, SPIED_COUNT>& replacements() {
       WELKIN_SPIED(WELKIN_ENTRY)
 #undef WELKIN_ENTRY
           {"vkUpdateDescriptorSets", reinterpret_cast<PFN_vkVoidFunction>(&updateDescriptorSets)},
+      {"vkGetQueryPoolResults", reinterpret_cast<PFN_vkVoidFunction>(&getQueryPoolResults)},
   }};
   return table;
 }
@@ -116,6 +144,9 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL spyInstanceProc(VkInstance instance, co
   if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) {
     spied.deviceProc = reinterpret_cast<PFN_vkGetDeviceProcAddr>(real);
     return reinterpret_cast<PFN_vkVoidFunction>(&spyDeviceProc);
+  }
+  if (spied.fakes && std::strcmp(name, "vkGetPhysicalDeviceQueueFamilyProperties") == 0) {
+    return reinterpret_cast<PFN_vkVoidFunction>(&queueFamilies);
   }
   return real;
 }
@@ -155,6 +186,7 @@ SpyDevice::SpyDevice(bool validation) {
 }
 
 SpyDevice::~SpyDevice() {
+  spied.fakes = false;
   vkDestroyFence(device, fence_, nullptr);
   vkDestroyCommandPool(device, pool_, nullptr);
   vkDestroyDevice(device, nullptr);
@@ -232,6 +264,12 @@ PFN_vkGetInstanceProcAddr SpyDevice::getInstanceProcAddr() {
 
 VulkanCounts& SpyDevice::counts() {
   return spied.counts;
+}
+
+void SpyDevice::fakeTimestamps(uint32_t bits) {
+  spied.fakes = true;
+  spied.timestampBits = bits;
+  spied.clock = (uint64_t{1} << bits) - TICK / 2;
 }
 
 const std::set<std::string>& SpyDevice::namesAsked() {

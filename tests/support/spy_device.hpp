@@ -23,6 +23,7 @@ struct VulkanCounts {
   uint64_t destroyed = 0;         // vkDestroy*
   uint64_t allocated = 0;         // vkAllocate*
   uint64_t descriptorWrites = 0;  // writes and copies of vkUpdateDescriptorSets
+  uint64_t timestamps = 0;        // vkCmdWriteTimestamp2
 };
 
 class SpyDevice {
@@ -44,6 +45,11 @@ class SpyDevice {
   static VulkanCounts& counts();
   // Every name that the library asked of vkGetDeviceProcAddr.
   static const std::set<std::string>& namesAsked();
+
+  // Until the next spied device dies: queues tell of as many bits in their timestamps, and each one
+  // read is TICK after the last, the second of them beyond those bits.
+  static constexpr uint64_t TICK = 1000;
+  static void fakeTimestamps(uint32_t bits);
 
   // Records with `record`, submits, waits. Where `record` throws, nothing is submitted.
   void run(const std::function<void(VkCommandBuffer)>& record) const;

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// What the light of all orders takes from the mixture of a volume's fields, as contents change.
+#pragma once
+
+#include "api/context.hpp"
+
+namespace welkin {
+
+// Makes it anew for the volumes in which a field's share of the extinction has changed by more than
+// `most` since. 14 ms each. A failure leaves each volume with the old or the new.
+void renewMedia(WlkContext_T& context, double most);
+
+}  // namespace welkin
