@@ -63,8 +63,9 @@ enum {
   /** Vulkan reported no device memory, or the resource exceeds a device limit's memory. */
   WLK_ERROR_OUT_OF_DEVICE_MEMORY = -7,
   /** Vulkan reported a lost device. From here on all that needs the device fails so without a call
-   *  of Vulkan: what creates volumes, surfaces, views and maps, uploads, prepares, records or reads
-   *  back. Setters and queries go on; destroy calls and wlkVulkanForgetImage free what they can. */
+   *  of Vulkan: what creates or changes volumes' and surfaces' data and images, creates or updates
+   *  views, creates maps, begins frames, prepares, records or reads back. Other setters and queries
+   *  go on; destroy calls and wlkVulkanForgetImage free what they can. */
   WLK_ERROR_DEVICE_LOST = -8,
   /** A format that the role does not support. */
   WLK_ERROR_UNSUPPORTED_FORMAT = -9,
@@ -182,8 +183,8 @@ typedef struct WlkView {
 
 /** Host allocator; all three null means malloc and free. It is called on the threads that call
  *  Welkin, and must neither throw nor call Welkin. Phase functions of media and fog (0.2 MB
- *  each), the table of skylight (0.2 MB) and the work space of their computation come from the C++
- *  runtime instead, and are not in WlkFrameStats::hostMemory. */
+ *  each), the table of skylight (0.2 MB, with fog 2.3 MB) and the work space of their computation
+ * come from the C++ runtime instead, and are not in WlkFrameStats::hostMemory. */
 typedef struct WlkAllocator {
   void* user;
   /** Returns `size` bytes aligned to `alignment` (a power of two), or null. */

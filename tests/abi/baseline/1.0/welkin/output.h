@@ -128,7 +128,8 @@ typedef struct WlkCloudShadowState {
   uint32_t commands;
   /** Shader invocations (threads) recorded. */
   uint64_t invocations;
-  /** GPU time of the newest finished frame, ns; 0 before one finished. */
+  /** GPU time of the newest finished frame, ns; 0 before one finished, and always on a queue
+   *  without timestamps. */
   uint64_t gpuTime_ns;
 } WlkCloudShadowState;
 

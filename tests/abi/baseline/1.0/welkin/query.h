@@ -13,7 +13,7 @@ extern "C" {
 
 /** Rays for wlkEvalSky. */
 typedef struct WlkRay {
-  /** World point. m. */
+  /** World point. m, |x| <= 1e9. */
   double origin[3];
   /** Unit vector. */
   double direction[3];

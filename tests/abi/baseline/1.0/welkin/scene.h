@@ -44,8 +44,8 @@ typedef struct WlkSky {
   float scaleHeight;
 } WlkSky;
 
-/** Sets the air; null means none. [C] Errors: INVALID_ARGUMENT (rayleighScattering, scaleHeight).
- */
+/** Sets the air; null means none. Coming or going needs wlkPrepare. [C] Errors: INVALID_ARGUMENT
+ *  (rayleighScattering, scaleHeight). */
 WLK_API WlkResult wlkSetSky(WlkContext context, const WlkSky* sky);
 
 /** A gas that absorbs and does not scatter: ozone. A part of the air: it is nothing without
@@ -68,8 +68,8 @@ typedef struct WlkAbsorber {
   uint32_t reserved0;
 } WlkAbsorber;
 
-/** Sets the absorbing gas; null means none. [C] Errors: INVALID_ARGUMENT (absorption, peakAltitude,
- *  halfWidth). */
+/** Sets the absorbing gas; null means none. Coming or going needs wlkPrepare. [C] Errors:
+ *  INVALID_ARGUMENT (absorption, peakAltitude, halfWidth). */
 WLK_API WlkResult wlkSetAbsorber(WlkContext context, const WlkAbsorber* absorber);
 
 /** A directional light with a disk: the sun, or a moon (wlkInitMoon). */
@@ -192,8 +192,8 @@ typedef struct WlkFog {
   WlkMedium medium;
 } WlkFog;
 
-/** Sets the fog layer; null means none. [C] Errors: INVALID_ARGUMENT, INVALID_HANDLE
- *  (medium). */
+/** Sets the fog layer; null means none. Coming or going needs wlkPrepare. [C] Errors:
+ *  INVALID_ARGUMENT, INVALID_HANDLE (medium). */
 WLK_API WlkResult wlkSetFog(WlkContext context, const WlkFog* fog);
 
 /** Kinds of particles; sizes are medians of number, log-normal with standard deviation `spread`. */
@@ -347,8 +347,9 @@ typedef struct WlkVolumeInfo {
   /** fieldCount elements. Default null. */
   const WlkVolumeField* fields;
   /** Row-major 3x4: world = M * (x, y, z, 1), where the volume is the unit box [0, 1]^3 and voxel
-   *  (i, j, k) has its centre at ((i+0.5)/size[0], (j+0.5)/size[1], (k+0.5)/size[2]). Invertible.
-   *  Default identity. */
+   *  (i, j, k) has its centre at ((i+0.5)/size[0], (j+0.5)/size[1], (k+0.5)/size[2]). Elements
+   *  |x| <= 1e9, edges of 1 mm and more, a volume of more than 1e-6 of the edges' product. Default
+   *  identity. */
   double worldFromVolume[12];
 } WlkVolumeInfo;
 
@@ -370,7 +371,8 @@ typedef struct WlkVolumeUpload {
   const void* next;
   /** Index of the field. Default 0. */
   uint32_t field;
-  /** WLK_FORMAT_R32_FLOAT, R16_FLOAT or R8_UNORM. Default R32_FLOAT. */
+  /** WLK_FORMAT_R32_FLOAT, R16_FLOAT or R8_UNORM. A field keeps half floats of what came as these
+   *  two, until all of its voxels come as R32_FLOAT at once. Default R32_FLOAT. */
   uint32_t format;
   /** First voxel. Default 0. */
   uint32_t offset[3];
@@ -389,8 +391,7 @@ typedef struct WlkVolumeUpload {
 /** Copies the data; the GPU copy is made by the next frame. A field that is kept as bricks takes
  *  only all of its voxels at once, is no longer kept so, and then needs wlkPrepare. Values that had
  *  to be replaced go to the log (WLK_LOG_ID_VALUES_REPLACED). [C] Errors: INVALID_ARGUMENT (field,
- *  extent, data, dataSize, rowPitch, slicePitch), UNSUPPORTED_FORMAT, OUT_OF_*, WRONG_STATE in CPU
- *  mode. */
+ *  extent, data, dataSize, rowPitch, slicePitch), UNSUPPORTED_FORMAT, OUT_OF_*, DEVICE_LOST. */
 WLK_API WlkResult wlkUploadVolume(WlkContext context, WlkVolume volume,
                                   const WlkVolumeUpload* upload);
 
@@ -404,8 +405,7 @@ WLK_API WlkResult wlkUploadVolume(WlkContext context, WlkVolume volume,
  *  diameter. Needs all voxels at once, R32_FLOAT or R16_FLOAT, and a medium of cloud, fog, haze or
  *  rain with the default spread. Of one field per volume: another field's replace them. The first
  *  and those of another field need wlkPrepare, which makes 24 MiB of tables per volume and
- *  scattering mode. [C] Errors: INVALID_ARGUMENT, UNSUPPORTED_FORMAT, OUT_OF_*, WRONG_STATE in CPU
- *  mode. */
+ *  scattering mode. [C] Errors: INVALID_ARGUMENT, UNSUPPORTED_FORMAT, OUT_OF_*, DEVICE_LOST. */
 WLK_API WlkResult wlkUploadVolumeDiameters(WlkContext context, WlkVolume volume,
                                            const WlkVolumeUpload* diameters);
 /** The volume's droplets have their medium's diameter again; needs wlkPrepare if there were

@@ -75,7 +75,8 @@ typedef struct WlkPassStats {
   WlkSurface surface;
   /** Shader invocations (threads) recorded. */
   uint64_t invocations;
-  /** GPU time of the newest finished frame, ns; 0 before one finished. */
+  /** GPU time of the newest finished frame, ns; 0 before one finished, and always on a queue
+   *  without timestamps. */
   uint64_t gpuTime_ns;
 } WlkPassStats;
 
@@ -113,9 +114,9 @@ WLK_API const char* wlkReasonName(uint32_t reason);
 enum {
   /** Sky light: with WLK_SCATTERING_SINGLE what was scattered more than once or by the ground. */
   WLK_APPROXIMATION_SKY = 0,
-  /** Light scattered more than once in the fog layer, by two Legendre terms. */
+  /** Light scattered more than once in the fog layer. */
   WLK_APPROXIMATION_FOG = 1,
-  /** Light inside volumes; their shadows on air and ground, ambient light: where not asked for. */
+  /** Light inside volumes; their shadows on air and ground, ambient light: where left out. */
   WLK_APPROXIMATION_VOLUME_SCATTERING = 2,
   /** Slabs and light-buffer texels. */
   WLK_APPROXIMATION_VOLUME_SLICES = 3

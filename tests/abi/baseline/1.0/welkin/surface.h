@@ -37,8 +37,8 @@ typedef struct WlkSurfaceInfo {
    * call only. Default null. */
   const float* positions;
   /** Three for each triangle. Closed: each edge is walked as often one way as the other, vertices
-   * at equal places counting as one. A mesh wound inwards is turned; where it meets itself,
-   * densities add. Read during the call only. Default null. */
+   * at equal places counting as one, and encloses a volume. A mesh wound inwards is turned; where
+   * it meets itself, densities add. Read during the call only. Default null. */
   const uint32_t* indices;
   /** Row-major 3x4: world = M * (x, y, z, 1). Invertible, its columns 1 mm long or more. Default
    *  identity. */
@@ -73,7 +73,8 @@ typedef struct WlkSurfaceDetail {
  * lights that volumes take it from, casts no shadow on others, and is not in aerial perspective for
  *  transparents. [C]
  *  Errors: INVALID_ARGUMENT (extinction, vertexCount, vertexStride, triangleCount, positions,
- *  indices, worldFromSurface), INVALID_HANDLE (medium), OUT_OF_*, WRONG_STATE in CPU mode. */
+ *  indices, worldFromSurface), INVALID_HANDLE (medium), LIMIT_EXCEEDED (a mesh
+ *  beyond the device's storage buffers), OUT_OF_*, WRONG_STATE in CPU mode. */
 WLK_API WlkResult wlkCreateSurface(WlkContext context, const WlkSurfaceInfo* info,
                                    WlkSurface* surface);
 /** The memory is freed when no frame in flight uses it. [C] Errors: INVALID_HANDLE. */
@@ -90,8 +91,8 @@ WLK_API WlkResult wlkSetSurfaceDetail(WlkContext context, WlkSurface surface,
                                       const WlkSurfaceDetail* detail);
 /** New places of all vertices between the same triangles, for animation; as WlkSurfaceInfo has
  * them. Vertices that were at one place when the surface was created stay together: the place of
- * the last of them counts. [C] Errors: INVALID_ARGUMENT (positions; vertexCount other than at
- * creation; vertexStride), OUT_OF_*. */
+ * the last of them counts; those that no triangle uses do not. [C] Errors: INVALID_ARGUMENT
+ * (positions; vertexCount other than at creation; vertexStride), OUT_OF_*. */
 WLK_API WlkResult wlkSetSurfacePositions(WlkContext context, WlkSurface surface,
                                          const float* positions, uint32_t vertexCount,
                                          uint32_t vertexStride);

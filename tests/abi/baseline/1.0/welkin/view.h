@@ -76,7 +76,8 @@ typedef struct WlkViewInfo {
   uint32_t composite;
   /** Format of the images written, WLK_TARGET_*. Default RGBA16_FLOAT; headless RGBA32_FLOAT. */
   uint32_t targetFormat;
-  /** Bits WLK_LAYER_*. Others are refused, unless they are of WLK_LAYER_ALL. Default ALL. */
+  /** Bits WLK_LAYER_*. Others are refused, unless they come with WLK_LAYER_ALL, from which layers
+   *  may be taken away by & ~. Default ALL. */
   uint64_t layers;
   /** WLK_COLOR_*. Default WAVELENGTHS. */
   uint32_t colorSpace;
@@ -88,7 +89,7 @@ typedef struct WlkViewInfo {
  *  BLEND in headless mode, OUT_OF_HOST_MEMORY. */
 WLK_API WlkResult wlkCreateView(WlkContext context, const WlkViewInfo* info, WlkView* view);
 /** Changes size, composite mode, format, layers or colours. Needs wlkPrepare. [C] Errors: as
- *  wlkCreateView. */
+ *  wlkCreateView, DEVICE_LOST. */
 WLK_API WlkResult wlkUpdateView(WlkContext context, WlkView view, const WlkViewInfo* info);
 /** The memory is freed when no frame in flight uses it. [C] Errors: INVALID_HANDLE. */
 WLK_API WlkResult wlkDestroyView(WlkContext context, WlkView view);
@@ -290,10 +291,14 @@ WLK_API const char* wlkControlReasonName(uint32_t reason);
  *  until something is created or resized, recording allocates nothing. Solves for the light that
  *  air and fog scatter more than once (0.1 to 0.4 s) if the air has changed; without it the next
  *  frames show the old light while wlkVulkanCmdUpdate solves for the new, 4 ms of CPU time each,
- *  24 in clear air, up to 110 in fog, and allocates when it begins and ends. Views whose eye has
+ *  24 in clear air, 42 to 126 in fog, and allocates when it begins and ends. Light that is
+ *  scattered more than once sees the fields of a volume as one mixture. It follows what was
+ *  uploaded: exactly when this is called, else by wlkVulkanCmdUpdate once a field's share of the
+ *  volume's extinction has changed by more than 0.05, for 14 ms and one buffer. Views whose eye has
  *  risen above 1.5 scale heights (12 km on Earth) are drawn more sharply at the edge of night far
  *  below if this is called again. [C]
- *  Errors: WRONG_STATE in CPU mode, OUT_OF_*, DEVICE_LOST. */
+ *  Errors: WRONG_STATE in CPU mode, LIMIT_EXCEEDED (cells, froxels, or pixels of views and maps
+ *  beyond the device's storage buffers), OUT_OF_*, DEVICE_LOST. */
 WLK_API WlkResult wlkPrepare(WlkContext context);
 
 /** Which frame begins, and which are over. */
@@ -335,8 +340,8 @@ typedef struct WlkLightShadow {
   double origin[3];
   /** Per cascade, column-major: (world position - origin, 1) to Vulkan clip space: x and y in
    *  [-1, 1], (-1, -1) at the outer corner of texel (0, 0), depth in [0, 1]. Affine and
-   *  invertible, |x| <= 1e9, lines of equal x and y within 30 degrees of the light's direction. It
-   *  tells whether depth is reversed. Default identity. */
+   *  invertible, |x| <= 1e9, edges and depth of 2 mm to 1e7 m, lines of equal x and y within 30
+   *  degrees of the light's direction. It tells whether depth is reversed. Default identity. */
   float clipFromWorld[WLK_MAX_SHADOW_CASCADES][16];
   /** Points up to this far behind the map's surface count as lit: half a texel's width on slopes
    *  of 45 degrees. m along the light, [0, 1e6], default 0.1. */
@@ -373,7 +378,7 @@ typedef struct WlkHeadlessInputs {
 } WlkHeadlessInputs;
 
 /** Renders one frame of the view and waits for it. `inputs` may be null. [C]
- *  Errors: WRONG_STATE outside headless mode and for a shadow map without the quality's flag,
+ *  Errors: WRONG_STATE on an engine's device and for a shadow map without the quality's flag,
  *  INVALID_ARGUMENT, NOT_PREPARED, OUT_OF_*, DEVICE_LOST. */
 WLK_API WlkResult wlkRenderHeadless(WlkContext context, WlkView view,
                                     const WlkHeadlessInputs* inputs);
@@ -401,8 +406,10 @@ typedef struct WlkImageData {
   uint64_t dataSize;
 } WlkImageData;
 
-/** Copies an image of the view's last headless frame. [C] NOT_READY before the first and after one
- *  that failed. Errors: WRONG_STATE, INVALID_ARGUMENT, DEVICE_LOST (nobody knows what it holds). */
+/** Copies an image of the view's last headless frame. [C] NOT_READY before the first, after
+ *  one that failed while it was drawn, and from when the view needs wlkPrepare until a frame is
+ *  rendered again; a call that was refused leaves the frame before it. Errors: WRONG_STATE on an
+ *  engine's device, INVALID_ARGUMENT, DEVICE_LOST (nobody knows what it holds). */
 WLK_API WlkResult wlkReadback(WlkContext context, WlkView view, const WlkImageData* image);
 
 #ifdef __cplusplus

@@ -19,7 +19,8 @@
  *  - Every function may return INVALID_ARGUMENT for null pointers and values out of their ranges,
  *    INVALID_HANDLE, UNKNOWN_STRUCT and STRUCT_TOO_NEW for the heads of structures, and
  *    OUT_OF_HOST_MEMORY; further errors are named at each.
- *  - Setters take null for what a new context has.
+ *  - Setters of planet, sky, absorber, fog, ambient light, aerial perspective and a surface's
+ * detail take null for what there is at first; others refuse it.
  *
  * Growth, within a major version:
  *  - Structures get fields at their ends, whose 0 is what was before; callers' older, shorter

@@ -114,7 +114,8 @@ typedef struct WlkVulkanImage {
   WlkVulkanImageState after;
 } WlkVulkanImage;
 
-/** What a view reads and writes. Extents must be the view's, except the shadow map's. */
+/** What a view reads and writes. Extents must be the view's, but for the shadow map's and those of
+ *  aerial perspective, which are WlkAerialPerspective's width x height x depth. */
 typedef struct WlkVulkanViewTargets {
   uint32_t sType;
   uint32_t structSize;
@@ -122,12 +123,12 @@ typedef struct WlkVulkanViewTargets {
   /** The engine's depth buffer, 2-D, single-sampled; null: nothing opaque. Formats D16, D24S8,
    *  D32F, D32FS8, X8D24 (aspect DEPTH is read) or R32F. Default null. */
   const WlkVulkanImage* depth;
-  /** COMPUTE: the engine's colour, sampled. Null or the same VkImage as `color`: read from
-   *  `color` itself when it is given here, black when null. Default null. */
+  /** COMPUTE: the engine's colour, sampled. Null or the same part (image, mip level, layer) as
+   *  `color`: read from `color` itself when it is given here, black when null. Default null. */
   const WlkVulkanImage* colorInput;
   /** COMPUTE: written. BLEND: blended onto. Default null. */
   const WlkVulkanImage* color;
-  /** SEPARATE: written. Default null. */
+  /** SEPARATE: written; two images. Default null. */
   const WlkVulkanImage* radiance;
   const WlkVulkanImage* transmittance;
   /** The engine's shadow map and where it lies; both or none. Needs WLK_QUALITY_FLAG_LIGHT_SHADOWS.
@@ -154,7 +155,8 @@ typedef struct WlkVulkanViewTargets {
  *  R8_UNORM. Unlike other images Welkin never moves it: both layouts are SHADER_READ_ONLY_OPTIMAL,
  *  stages and access are not looked at, and the engine makes the barriers between its writes and
  *  the compute and fragment shaders of Welkin's commands, which come later in submission order. It
- *  lives until wlkVulkanForgetImage. Values that are negative or not finite count as 0. [C] Errors:
+ *  lives until wlkVulkanForgetImage. Values that are negative or not finite count as 0. Needs
+ *  wlkPrepare where it takes the place of bricks, or bricks its. [C] Errors:
  *  WRONG_STATE outside engine-device mode, INVALID_HANDLE, INVALID_ARGUMENT (field, size, layouts),
  *  UNSUPPORTED_FORMAT, OUT_OF_*. */
 WLK_API WlkResult wlkVulkanSetVolumeImage(WlkContext context, WlkVolume volume, uint32_t field,
@@ -177,9 +179,9 @@ WLK_API WlkResult wlkVulkanForgetImage(WlkContext context, VkImage image);
  * away, but what earlier calls recorded must run. */
 
 /** Records pending uploads. Outside a render pass, once per frame, before the views. After a change
- *  of planet, sky or fog without wlkPrepare it also solves for some of the new light, see there.
- * Record it even in frames that draw no view, or uploads wait. [C] Errors: WRONG_STATE without
- * wlkBeginFrame; OUT_OF_* after such a change. */
+ *  of planet, sky or fog, or of the shares of a volume's fields, without wlkPrepare it also solves
+ *  for some of the new light, see there. Record it even in frames that draw no view, or uploads
+ *  wait. [C] Errors: WRONG_STATE without wlkBeginFrame; OUT_OF_* after such a change. */
 WLK_API WlkResult wlkVulkanCmdUpdate(WlkContext context, VkCommandBuffer commandBuffer);
 
 /** Records a view. Outside a render pass. Afterwards the command buffer's pipelines, descriptor
@@ -196,7 +198,8 @@ WLK_API WlkResult wlkVulkanCmdRenderView(WlkContext context, VkCommandBuffer com
  *  were, it records nothing but the change from before.layout to after.layout, if they differ: keep
  *  the image's contents, or give UNDEFINED to have them written anew. A field in an engine's image
  *  counts as changed each frame. Without light or volumes the map says so once. [C]
- *  Errors: WRONG_STATE, NOT_PREPARED, INVALID_ARGUMENT, UNSUPPORTED_FORMAT. */
+ *  Errors: WRONG_STATE, NOT_PREPARED, INVALID_ARGUMENT, UNSUPPORTED_FORMAT, OUT_OF_*, DEVICE_LOST.
+ */
 WLK_API WlkResult wlkVulkanCmdRenderCloudShadow(WlkContext context, VkCommandBuffer commandBuffer,
                                                 WlkCloudShadow map, const WlkVulkanImage* image);
 
