@@ -67,7 +67,7 @@ enum {
   /** For what stands between or inside them, too. R: optical depth of all of them; G, B: distances
    * d (m, see WlkCloudShadowState) between which it rises evenly: to R * clamp((d - G) / (B - G),
    * 0, 1). Exact for one homogeneous layer, else its mean and spread are those of the extinction;
-   *  ends go a texel further, so that linear filters may be used.
+   *  ends go a texel further, so that linear filters may be used. A sample counts at most 1e6.
    *  A: 0. R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT. */
   WLK_CLOUD_SHADOW_LAYER = 2
 };
