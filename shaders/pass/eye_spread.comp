@@ -43,16 +43,8 @@ struct Ray {
 Ray rayAt(ivec2 second) {
   uint at = secondAddress(uvec2(clamp(second, ivec2(firstSecond()), ivec2(lastSecond()))));
   Ray ray;
-  ray.state = vec4(uintBitsToFloat(seconds[at]), uintBitsToFloat(seconds[at + 1u]),
-                   uintBitsToFloat(seconds[at + 2u]), uintBitsToFloat(seconds[at + 3u]));
-  ray.sums = vec4(0.0f);
-  if (DEPTH_ENABLED) {
-    ray.sums.x = uintBitsToFloat(seconds[at + 4u]);
-  }
-  if (DISTANCE) {
-    ray.sums.y = uintBitsToFloat(seconds[at + 5u]);
-    ray.sums.z = uintBitsToFloat(seconds[at + 6u]);
-  }
+  ray.state = secondRays[at];
+  ray.sums = DEPTH_ENABLED || DISTANCE ? secondRays[at + 1u] : vec4(0.0f);
   return ray;
 }
 

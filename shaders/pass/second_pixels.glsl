@@ -3,6 +3,8 @@
 // their own: one buffer, see LIST_HEAD. Second pixel (i, j) is pixel (2 i, 2 j); those of the last
 // row and column may lie outside of the view by one, so that every pixel has neighbours around it.
 layout(set = 0, binding = 11, std430) buffer SecondPixels { uint seconds[]; };
+// The same buffer: four words at once cost the driver hardly more than one.
+layout(set = 0, binding = 11, std430) buffer SecondRays { vec4 secondRays[]; };
 
 uvec2 firstSecond() {
   return uvec2(volume.rect.xy) / 2u;
@@ -16,8 +18,9 @@ uvec2 secondsOfView() {
   return uvec2(frame.viewport.xy) / 2u + 1u;
 }
 
+// In secondRays.
 uint secondAddress(uvec2 second) {
-  return LIST_HEAD + SECOND_SIZE * (second.y * secondsOfView().x + second.x);
+  return (LIST_HEAD + SECOND_SIZE * (second.y * secondsOfView().x + second.x)) / 4u;
 }
 
 uint listAddress() {
@@ -26,14 +29,9 @@ uint listAddress() {
 
 void storeSecond(uvec2 second, vec4 state, float end, vec2 hidden) {
   uint at = secondAddress(second);
-  seconds[at] = floatBitsToUint(state.x);
-  seconds[at + 1u] = floatBitsToUint(state.y);
-  seconds[at + 2u] = floatBitsToUint(state.z);
-  seconds[at + 3u] = floatBitsToUint(state.w);
-  seconds[at + 4u] = floatBitsToUint(end);
-  if (DISTANCE) {
-    seconds[at + 5u] = floatBitsToUint(hidden.x);
-    seconds[at + 6u] = floatBitsToUint(hidden.y);
+  secondRays[at] = state;
+  if (DEPTH_ENABLED || DISTANCE) {
+    secondRays[at + 1u] = vec4(end, hidden, 0.0f);
   }
 }
 
