@@ -21,7 +21,8 @@ std::vector<std::string> textsOf(const host::JsonNode& node, const char* key) {
 }
 
 Case parseCase(const host::JsonNode& node) {
-  node.onlyKeys({"name", "scene", "overrides", "analytic", "size", "samples", "flip", "curves"});
+  node.onlyKeys({"name", "scene", "overrides", "analytic", "size", "samples", "flip", "curves",
+                 "timedWidth"});
   Case one;
   one.name = node.at("name").text();
   const auto folder = std::filesystem::path(node.file()).parent_path();
@@ -39,6 +40,9 @@ Case parseCase(const host::JsonNode& node) {
   one.samplesAll = samples[0].count(1);
   one.samplesSingle = samples[1].count(1);
   one.curves = node.has("curves") && node.at("curves").boolean();
+  if (node.has("timedWidth")) {
+    one.timedWidth = node.at("timedWidth").count(1, host::MAX_IMAGE_EDGE);
+  }
   one.flipStart = flip[0].number(-60.0, 60.0);
   one.flipStop = flip[1].number(one.flipStart, 60.0);
   one.flipCount = flip[2].count(1, 64);

@@ -27,6 +27,9 @@ struct Case {
   uint32_t samplesSingle = 256;
   /// Quick runs too measure the methods that fill the curves.
   bool curves = false;
+  /// Width of the timed views at least, where the usual one leaves frames of few milliseconds; 0:
+  /// the usual one. Pixels.
+  uint32_t timedWidth = 0;
   /// First and last exposure in stops, and how many, at which FLIP looks at the picture.
   double flipStart = 0.0;
   double flipStop = 0.0;

@@ -193,7 +193,7 @@ std::vector<Method> methodsFor(const Case& one, bool hasVolumes, bool quick) {
       methods.push_back(vary(variation));
     }
   }
-  if (!one.analytic.empty()) {
+  if (!one.analytic.empty() && (!hasVolumes || wanted(Run::Curves, quick, one.curves))) {
     Method method{"analytic", false, levelSettings(HIGH)};
     method.settings.analytic = true;
     methods.push_back(method);

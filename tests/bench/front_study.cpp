@@ -10,10 +10,10 @@
 namespace bench {
 namespace {
 
-// Edges of the timed views over the case's: frames of a millisecond are mostly the waking of
-// threads, and times of them in two runs differ by a fifth.
-constexpr uint32_t TIMED_SCALE = 4;
-constexpr uint32_t TIMED_SCALE_VOLUMES = 2;
+// Width of the timed views at least, a multiple of the case's: frames of few milliseconds are
+// mostly the waking of threads, and times of them in two runs differ by a tenth and more.
+constexpr uint32_t TIMED_WIDTH = 512;
+constexpr uint32_t TIMED_WIDTH_VOLUMES = 256;
 // Frames before the measured ones: the first compiles, and every slot of the frames in flight
 // (3) is recorded once.
 constexpr size_t WARM_UPS = 3;
@@ -154,7 +154,9 @@ Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell) 
   }
 
   tell("times");
-  const uint32_t scale = hasVolumes ? TIMED_SCALE_VOLUMES : TIMED_SCALE;
+  const uint32_t usual = hasVolumes ? TIMED_WIDTH_VOLUMES : TIMED_WIDTH;
+  const uint32_t width = std::max(usual, one.timedWidth);
+  const uint32_t scale = (width + one.width - 1) / one.width;
   const host::RasterResult opaque = worlds.of({}).makeOpaque(scale);
   std::vector<Copies> frames;
   for (const Method& method : methods) {

@@ -16,17 +16,17 @@ constexpr double MIN_ROUND_ms = 10.0;
 constexpr size_t MAX_REPEATS = 64;
 // Cheap scenes get more rounds, up to MORE_ROUNDS times as many. Ratios of two runs still differ,
 // see docs/accuracy-and-performance.md.
-constexpr double MIN_STUDY_ms = 4000.0;
+constexpr double MIN_STUDY_ms = 3000.0;
 constexpr size_t MORE_ROUNDS = 7;
-// Warm-ups after a method's first frame end when they took this long: what is made once is then a
-// small part of a frame.
-constexpr double LONG_WARM_UP_ms = 200.0;
+// Warm-ups of a copy end when they took this long, the first frame of all, which compiles, left
+// out: what is made once is then a small part of a frame.
+constexpr double LONG_WARM_UP_ms = 60.0;
 // A method whose first frame takes longer than this (light of all orders) is not copied.
 constexpr double LONG_FIRST_ms = 1000.0;
 // Long frames differ less: from so many times MIN_ROUND_ms on a method is timed in every second
-// round, from twice as many on in every third.
+// round.
 constexpr double LONG_ROUND = 6.0;
-constexpr size_t MAX_STRIDE = 3;
+constexpr size_t MAX_STRIDE = 2;
 
 struct Sample {
   double wall = 0.0;
@@ -116,7 +116,7 @@ Turn warmUp(const Copies& copies, size_t warmUps) {
     for (size_t k = 0; k < warmUps && spent < LONG_WARM_UP_ms; ++k) {
       const double wall = timeFrames(copies[copy], 1).wall;
       turn.frame_ms = std::min(turn.frame_ms, wall);
-      spent += k == 0 ? 0.0 : wall;
+      spent += copy == 0 && k == 0 ? 0.0 : wall;
       if (wall > LONG_FIRST_ms) {
         turn.copies = 1;
       }
