@@ -112,7 +112,7 @@ size_t checkContract(const Options& options) {
 
 void measure(const Options& options) {
   constexpr size_t ROUNDS = 30;
-  constexpr size_t QUICK_ROUNDS = 12;
+  constexpr size_t QUICK_ROUNDS = 10;
   StudyOptions study;
   study.rounds = options.rounds != 0 ? options.rounds : (options.quick ? QUICK_ROUNDS : ROUNDS);
   study.quick = options.quick;
@@ -169,7 +169,7 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--case", options.names, "Only this case; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--rounds", options.rounds, "Interleaved rounds (default 30; quick 12)");
+  app.add_option("--rounds", options.rounds, "Interleaved rounds (default 30; quick 10)");
   app.add_flag("--quick", options.quick, "Fewer methods and rounds");
   app.add_flag("--levels-only", options.levelsOnly, "The four quality levels only");
   app.add_option("--out", options.json, "Write the results to this file (JSON)");

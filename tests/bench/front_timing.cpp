@@ -27,6 +27,9 @@ constexpr double LONG_FIRST_ms = 1000.0;
 // round.
 constexpr double LONG_ROUND = 6.0;
 constexpr size_t MAX_STRIDE = 2;
+// A method whose ratio is known no better than this (high / low) is timed in more rounds, up to as
+// many as were asked for.
+constexpr double UNSURE = 1.06;
 
 struct Sample {
   double wall = 0.0;
@@ -149,24 +152,43 @@ std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor
     round_ms += turns[i].frame_ms * static_cast<double>(turns[i].repeats) /
                 static_cast<double>(turns[i].stride);
   }
+  const size_t asked = rounds;
   const auto fill = static_cast<size_t>(MIN_STUDY_ms / round_ms);
   rounds = std::max(std::clamp(fill, rounds, MORE_ROUNDS * rounds), MAX_STRIDE);
   std::vector<std::vector<Sample>> samples(methods.size());
   std::vector<std::vector<Sample>> anchors(methods.size());  // of the same rounds
-  for (size_t round = 0; round < rounds; ++round) {
-    std::vector<size_t> timed;
-    for (size_t k = 0; k < methods.size(); ++k) {
-      const size_t i = (k + round) % methods.size();
-      const Turn& turn = turns[i];
-      if ((i + round) % turn.stride == 0) {
-        const RenderFrame& frame = methods[i][round / turn.stride % turn.copies];
-        samples[i].push_back(timeFrames(frame, turn.repeats));
-        timed.push_back(i);
-      }
+  const auto time = [&](const std::vector<size_t>& due) {
+    for (const size_t i : due) {
+      const RenderFrame& frame = methods[i][samples[i].size() % turns[i].copies];
+      samples[i].push_back(timeFrames(frame, turns[i].repeats));
     }
-    for (const size_t i : timed) {
+    for (const size_t i : due) {
       anchors[i].push_back(samples[anchor].back());
     }
+  };
+  for (size_t round = 0; round < rounds; ++round) {
+    std::vector<size_t> due;
+    for (size_t k = 0; k < methods.size(); ++k) {
+      const size_t i = (k + round) % methods.size();
+      if ((i + round) % turns[i].stride == 0) {
+        due.push_back(i);
+      }
+    }
+    time(due);
+  }
+  for (size_t more = 0; more < asked; ++more) {
+    std::vector<size_t> due = {anchor};
+    for (size_t i = 0; i < methods.size(); ++i) {
+      const Timing timing = summarise(samples[i], anchors[i]);
+      if (i != anchor && timing.ratioHigh > UNSURE * timing.ratioLow) {
+        due.push_back(i);
+      }
+    }
+    if (due.size() == 1) {
+      break;
+    }
+    std::rotate(due.begin(), due.begin() + static_cast<ptrdiff_t>(more % due.size()), due.end());
+    time(due);
   }
   std::vector<Timing> timings;
   for (size_t i = 0; i < methods.size(); ++i) {

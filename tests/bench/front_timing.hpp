@@ -33,7 +33,7 @@ using Copies = std::vector<RenderFrame>;
 
 /// Calls every copy `warmUps` times, then every method once per round, in an order that turns by
 /// one place each round; a frame too short to time alone is repeated and its mean taken, cheap sets
-/// of methods get more rounds, and long frames miss some.
+/// of methods get more rounds, long frames miss some, and ratios that are known badly get more.
 std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor, size_t warmUps,
                                size_t rounds);
 
