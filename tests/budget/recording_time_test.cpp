@@ -15,9 +15,14 @@ namespace welkin::test {
 namespace {
 
 constexpr int WARM_UP = 8;  // slots, caches and branch predictors
-constexpr int PAIRS = 1001;
+// After some 400 pairs processors of one kind have learned one of two equal scenes, and take an
+// eighth less time for it than for the other. Before, equal scenes' ratios were 0.99 to 1.01.
+constexpr int PAIRS = 201;
 
-// Ratios of equal scenes were 0.99 to 1.01, on an idle machine and on one with 3 programs per core.
+// Where the first life's ratio is out of its bounds, the median of this many decides: memory lies
+// elsewhere in each. (A life takes seconds to prepare.)
+constexpr int LIVES = 7;
+
 constexpr double NOISE = 1.08;
 
 SceneOptions unvalidated() {
@@ -54,7 +59,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// Time with what `add` adds over time without.
+// Time with what `add` adds over time without, in one life of both.
 double ratioOf(const std::function<void(EngineScene&)>& add) {
   Clouded without(nothing);
   Clouded with(add);
@@ -74,6 +79,18 @@ double ratioOf(const std::function<void(EngineScene&)>& add) {
   return ratio;
 }
 
+constexpr double ANY = 1e9;
+
+// The ratio, of times with what `add` adds over times without, within its bounds.
+void expectRatio(const std::function<void(EngineScene&)>& add, double least, double most) {
+  std::vector<double> lives = {ratioOf(add)};
+  while (lives.size() < LIVES && (lives.front() < least || lives.front() > most)) {
+    lives.push_back(ratioOf(add));
+  }
+  EXPECT_GE(median(lives), least);
+  EXPECT_LE(median(lives), most);
+}
+
 void addZeroVolume(EngineScene& scene) {
   const WlkVolume volume = scene.addBall(0.01f);
   scene.upload(volume, {8, 8, 8}, std::vector<float>(512, 0.0f));
@@ -86,32 +103,30 @@ void addVolumeBehind(EngineScene& scene) {
 }
 
 TEST(RecordingTime, EqualScenesTakeEqualTime) {
-  const double ratio = ratioOf(nothing);
-  EXPECT_LE(ratio, NOISE);
-  EXPECT_GE(ratio, 1.0 / NOISE);
+  expectRatio(nothing, 1.0 / NOISE, NOISE);
 }
 
 // Else the tests below could not fail.
 TEST(RecordingTime, AVolumeInViewIsSeen) {
-  EXPECT_GT(ratioOf([](EngineScene& scene) { scene.addBall(0.002f); }), 1.15 * NOISE);
+  expectRatio([](EngineScene& scene) { scene.addBall(0.002f); }, 1.15 * NOISE, ANY);
 }
 
 TEST(RecordingTime, AnEmptyVolumeCostsNextToNothing) {
   constexpr double PASSES_NOT_TAKEN = 1.07;  // a box in the plan, reasons in the statistics: 1.02
-  EXPECT_LE(ratioOf(addZeroVolume), PASSES_NOT_TAKEN * NOISE);
+  expectRatio(addZeroVolume, 0.0, PASSES_NOT_TAKEN * NOISE);
 }
 
 TEST(RecordingTime, AVolumeBehindTheEyeCostsNextToNothing) {
   constexpr double BOX_TESTED = 1.07;  // 1.02
-  EXPECT_LE(ratioOf(addVolumeBehind), BOX_TESTED * NOISE);
+  expectRatio(addVolumeBehind, 0.0, BOX_TESTED * NOISE);
 }
 
 TEST(RecordingTime, FogWithoutExtinctionCostsNothing) {
-  EXPECT_LE(ratioOf([](EngineScene& scene) { scene.setFog(0.0f, 100.0f); }), NOISE);
+  expectRatio([](EngineScene& scene) { scene.setFog(0.0f, 100.0f); }, 0.0, NOISE);
 }
 
 TEST(RecordingTime, ASunBelowTheHorizonCostsNoMoreThanOneAbove) {
-  EXPECT_LE(ratioOf([](EngineScene& scene) { scene.setSun(-40, 20); }), NOISE);
+  expectRatio([](EngineScene& scene) { scene.setSun(-40, 20); }, 0.0, NOISE);
 }
 
 }  // namespace
