@@ -37,21 +37,26 @@ struct SliceConstants {
   uint lightSize;
 };
 
-// What the march's rays belong to: pixels, froxels, every second pixel along both axes, pixels of a
-// list.
+// What the march's rays belong to: pixels, froxels, every fourth pixel along both axes, pixels of a
+// list. The list and the spread before it are of every second pixel first, then of each.
 const uint RAYS_OF_PIXELS = 0u;
 const uint RAYS_OF_FROXELS = 1u;
-const uint RAYS_OF_SECONDS = 2u;
+const uint RAYS_OF_FOURTHS = 2u;
 const uint RAYS_OF_LIST = 3u;
-// The buffer of every second pixel and of the list. In uints: the dispatch's groups along three
-// axes, pixels in the list; then, 8 for each second pixel of the view, row by row with one more
-// than half of its pixels in each, radiance and transmittance, where the ray ends (m) and what the
-// volumes' distance needs; then the list, x + 65536 y.
-const uint LIST_HEAD = 4u;
+const uint SPREAD_TO_SECONDS = 0u;
+const uint SPREAD_TO_PIXELS = 1u;
+// The buffer of every second pixel and of the list. In uints: for the list of second pixels and for
+// that of pixels the dispatch's groups along three axes and the list's length; then, 8 for each
+// second pixel of the view, row by row with two more than half of its pixels in each, radiance and
+// transmittance, where the ray ends (m) and what the volumes' distance needs; then the list that is
+// in use, x + 65536 y.
+const uint LIST_SIZE = 4u;
+const uint LIST_HEAD = 8u;
 const uint SECOND_SIZE = 8u;
 const uint LIST_ROW = 16u;  // groups of the list's dispatch along x
-const uint SPREAD_CELLS = 4u;  // second pixels, one below the other, of an invocation
+const uint SPREAD_CELLS = 4u;  // cells of four pixels, one below the other, of an invocation
 
 const uint SLICE_FIRST_BATCH = 1u;
 const uint SLICE_LAST_BATCH = 2u;
 const uint SLICE_FIRST_VOLUME = 4u;
+const uint SLICE_SECONDS = 8u;  // the list is of every second pixel

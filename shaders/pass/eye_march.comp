@@ -50,7 +50,7 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 
 // Slices of froxels, one behind the other, instead of pixels: rays end at the slice's distance.
 const bool FROXELS = RAYS == RAYS_OF_FROXELS;
-const bool SECONDS = RAYS == RAYS_OF_SECONDS;
+const bool FOURTHS = RAYS == RAYS_OF_FOURTHS;
 const bool LISTED = RAYS == RAYS_OF_LIST;
 #include "second_pixels.glsl"
 
@@ -135,24 +135,27 @@ void main() {
   uvec2 tile = tileOf(gl_WorkGroupID.xy, gl_NumWorkGroups.xy);
   uvec2 offset = tile * 8u + gl_LocalInvocationID.xy;
   uvec2 pixel = uvec2(volume.rect.xy) + offset;
-  if (SECONDS) {
-    uvec2 second = firstSecond() + offset;
+  bool ofSecond = FOURTHS || (LISTED && (slice.flags & SLICE_SECONDS) != 0u);
+  if (FOURTHS) {
+    uvec2 fourth = firstFourth() + offset;
     if (offset == uvec2(0u)) {
-      seconds[0] = LIST_ROW;
-      seconds[1] = 0u;
-      seconds[2] = 1u;
-      seconds[3] = 0u;
+      for (uint list = 0u; list < LIST_HEAD; list += LIST_SIZE) {
+        seconds[list] = LIST_ROW;
+        seconds[list + 1u] = 0u;
+        seconds[list + 2u] = 1u;
+        seconds[list + 3u] = 0u;
+      }
     }
-    if (second.x > lastSecond().x || second.y > lastSecond().y) {
+    if (fourth.x > lastFourth().x || fourth.y > lastFourth().y) {
       return;
     }
-    pixel = second * 2u;
+    pixel = fourth * 4u;
   } else if (LISTED) {
     uint number = (tile.y * LIST_ROW + tile.x) * 64u + gl_LocalInvocationIndex;
-    if (number >= seconds[3]) {
+    if (number >= seconds[ofSecond ? 3u : LIST_SIZE + 3u]) {
       return;
     }
-    pixel = listedPixel(number);
+    pixel = listed(number) * (ofSecond ? 2u : 1u);
   } else if (pixel.x >= uint(volume.rect.z) || pixel.y >= uint(volume.rect.w)) {
     return;
   }
@@ -161,9 +164,8 @@ void main() {
   vec3 direction = pixelDirection(frame, vec2(pixel));
   float surface = INFINITE_DISTANCE;
   if (DEPTH_ENABLED) {
-    // The last second pixel may lie outside of the view, by one.
-    uvec2 inside = SECONDS ? min(pixel, uvec2(frame.viewport.xy) - 1u) : pixel;
-    float d = texelFetch(depthImage, ivec2(inside), 0).x;
+    ivec2 inside = FOURTHS || LISTED ? insideView(pixel) : ivec2(pixel);
+    float d = texelFetch(depthImage, inside, 0).x;
     surface = surfaceDistance(frame, vec2(pixel), d);
   }
   surface = FROXELS ? froxelDistance(frame, layer) : endOfRay(frame, direction, surface);
@@ -270,7 +272,7 @@ void main() {
     state = vec4(sum, exp(-min(eyeDepth * keep, EXP_CUT)));
   }
 
-  if (SECONDS) {
+  if (ofSecond) {
     storeSecond(pixel / 2u, state, span.end > span.begin ? span.end : 0.0f, hidden);
     return;
   }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Radiance and transmittance of pixels between the rays of every second one (second_pixels.glsl):
-// by cubics through the four nearest along each axis where those are smooth and end at the same
-// surface; the others go on a list, whose pixels are marched next. An invocation goes down a column
-// of SPREAD_CELLS times 2 x 2 pixels, so that it reads each row's rays once.
+// Radiance and transmittance of second pixels between the rays of every fourth one, then of pixels
+// between those of every second one (second_pixels.glsl): by cubics through the four nearest along
+// each axis where those are smooth and end at the same surface; the others go on a list, whose
+// pixels are marched next. An invocation goes down a column of SPREAD_CELLS times 2 x 2 of them, so
+// that it reads each row's rays once.
 //
 // Smooth: second and third differences bound what a cubic misses. A step between the middle two of
 // four, which leaves the second difference 0, has a third one of twice its height, so that steps of
@@ -14,6 +15,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 5) const bool DEPTH_ENABLED = true;
+layout(constant_id = 13) const uint TO = SPREAD_TO_PIXELS;
 layout(constant_id = 14) const bool DISTANCE = false;
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
@@ -33,6 +35,8 @@ const float SMOOTH_SLABS = 0.64f;
 // Of the ray's length inside the box, by which its end may miss what its neighbours' ends promise.
 const float SAME_END = 0.02f;
 
+const bool TO_SECONDS = TO == SPREAD_TO_SECONDS;
+
 // What a ray saw: radiance and transmittance; where it ends (m), 0 if it misses the box, and sums
 // for the volumes' distance.
 struct Ray {
@@ -40,8 +44,18 @@ struct Ray {
   vec4 sums;
 };
 
-Ray rayAt(ivec2 second) {
-  uint at = secondAddress(uvec2(clamp(second, ivec2(firstSecond()), ivec2(lastSecond()))));
+// Numbers of the first and last rays to look at.
+ivec2 firstRay() {
+  return ivec2(TO_SECONDS ? firstFourth() : firstSecond());
+}
+
+ivec2 lastRay() {
+  return ivec2(TO_SECONDS ? lastFourth() : lastSecond());
+}
+
+Ray rayAt(ivec2 number) {
+  uvec2 ofView = uvec2(clamp(number, firstRay(), lastRay()));
+  uint at = secondAddress(ofView * (TO_SECONDS ? 2u : 1u));
   Ray ray;
   ray.state = secondRays[at];
   ray.sums = DEPTH_ENABLED || DISTANCE ? secondRays[at + 1u] : vec4(0.0f);
@@ -60,7 +74,7 @@ vec4 middleOf(vec4 a, vec4 b, vec4 c, vec4 d) {
 // Where the ray ends inside the box and where it enters it, m; 0 if it misses.
 vec2 endOf(uvec2 pixel) {
   vec3 direction = pixelDirection(frame, vec2(pixel));
-  float d = texelFetch(depthImage, ivec2(pixel), 0).x;
+  float d = texelFetch(depthImage, insideView(pixel), 0).x;
   vec3 along = (volume.boxFromEye * vec4(direction, 0.0f)).xyz;
   Span span = rayBox(volume.boxFromEye[3].xyz, along, vec3(0.0f), vec3(1.0f));
   span.end = min(span.end, endOfRay(frame, direction, surfaceDistance(frame, vec2(pixel), d)));
@@ -84,19 +98,23 @@ void take(uvec2 pixel, Ray ray) {
   }
 }
 
-bool inside(uvec2 pixel) {
-  return pixel.x < uint(volume.rect.z) && pixel.y < uint(volume.rect.w);
+// Of pixels or second pixels, as all that follows.
+bool inside(uvec2 at) {
+  if (TO_SECONDS) {
+    return at.x <= lastSecond().x && at.y <= lastSecond().y;
+  }
+  return at.x < uint(volume.rect.z) && at.y < uint(volume.rect.w);
 }
 
-// Whether a pixel may take on what lies between its neighbours. Comparisons that fail for NaN.
-bool serves(uvec2 pixel, Ray between, Ray error, Ray most) {
+// Whether a pixel that ends at `own` may take on what lies between its neighbours. Comparisons that
+// fail for NaN.
+bool serves(vec2 own, Ray between, Ray error, Ray most) {
   float bound = SMOOTH_SLABS / volume.texelB.w;
   bool smooth_ = all(lessThanEqual(error.state, bound * most.state));
   if (DISTANCE) {
     smooth_ = smooth_ && error.sums.y <= bound * most.sums.y;
   }
   if (DEPTH_ENABLED) {
-    vec2 own = endOf(pixel);
     smooth_ = smooth_ && abs(own.x - between.sums.x) <= SAME_END * (own.x - own.y);
   }
   return smooth_;
@@ -134,16 +152,21 @@ Ray larger(Ray a, Ray b) {
 }
 
 // Takes on what lies between the neighbours, or asks for a ray.
-void settle(uvec2 pixel, Ray between, Ray error, Ray most, inout uint count, inout uvec3 listed) {
-  if (!inside(pixel)) {
+void settle(uvec2 at, Ray between, Ray error, Ray most, inout uint count, inout uvec3 asked) {
+  if (!inside(at)) {
     return;
   }
-  if (serves(pixel, between, error, most)) {
-    take(pixel, between);
+  vec2 own = DEPTH_ENABLED ? endOf(at * (TO_SECONDS ? 2u : 1u)) : vec2(0.0f);
+  if (serves(own, between, error, most)) {
+    if (TO_SECONDS) {
+      storeSecond(at, between.state, own.x, between.sums.yz);
+    } else {
+      take(at, between);
+    }
   } else {
-    uint both = pixel.x | (pixel.y << 16u);
-    listed = count == 0u ? uvec3(both, 0u, 0u)
-                         : (count == 1u ? uvec3(listed.x, both, 0u) : uvec3(listed.xy, both));
+    uint both = at.x | (at.y << 16u);
+    asked = count == 0u ? uvec3(both, 0u, 0u)
+                        : (count == 1u ? uvec3(asked.x, both, 0u) : uvec3(asked.xy, both));
     count += 1u;
   }
 }
@@ -169,7 +192,7 @@ Row rowAt(ivec2 at) {
   return row;
 }
 
-// 2 x 2 pixels, the first of which has a ray of its own, from the four rows around.
+// 2 x 2 of them, the first of which has a ray of its own, from the four rows around.
 void settleCell(uvec2 corner, Row above, Row here, Row next, Row last) {
   Ray most = larger(here.most, next.most);
   most.state = vec4(vec3(max(max(most.state.x, most.state.y), most.state.z)), 1.0f);
@@ -179,40 +202,40 @@ void settleCell(uvec2 corner, Row above, Row here, Row next, Row last) {
   Ray acrossError = larger(cubicError(above.between, here.between, next.between, last.between),
                            larger(here.error, next.error));
   uint count = 0u;
-  uvec3 listed = uvec3(0u);
-  if (inside(corner)) {
+  uvec3 asked = uvec3(0u);
+  if (!TO_SECONDS && inside(corner)) {
     take(corner, here.second);
   }
-  settle(corner + uvec2(1u, 0u), here.between, here.error, most, count, listed);
-  settle(corner + uvec2(0u, 1u), below, belowError, most, count, listed);
-  settle(corner + uvec2(1u, 1u), across, acrossError, most, count, listed);
+  settle(corner + uvec2(1u, 0u), here.between, here.error, most, count, asked);
+  settle(corner + uvec2(0u, 1u), below, belowError, most, count, asked);
+  settle(corner + uvec2(1u, 1u), across, acrossError, most, count, asked);
   if (count > 0u) {
-    uint first = atomicAdd(seconds[3], count);
+    uint list = TO_SECONDS ? 0u : LIST_SIZE;
+    uint first = atomicAdd(seconds[list + 3u], count);
     uint end = first + count - 1u;
-    atomicMax(seconds[1], end / (64u * LIST_ROW) + 1u);
+    atomicMax(seconds[list + 1u], end / (64u * LIST_ROW) + 1u);
     uint at = listAddress() + first;
-    seconds[at] = listed.x;
+    seconds[at] = asked.x;
     if (count > 1u) {
-      seconds[at + 1u] = listed.y;
+      seconds[at + 1u] = asked.y;
     }
     if (count > 2u) {
-      seconds[at + 2u] = listed.z;
+      seconds[at + 2u] = asked.z;
     }
   }
 }
 
 void main() {
-  uvec2 second = firstSecond() + gl_GlobalInvocationID.xy * uvec2(1u, SPREAD_CELLS);
-  if (!inside(second * 2u)) {
+  ivec2 at = firstRay() + ivec2(gl_GlobalInvocationID.xy * uvec2(1u, SPREAD_CELLS));
+  if (!inside(uvec2(at) * 2u)) {
     return;
   }
-  ivec2 at = ivec2(second);
   Row above = rowAt(at - ivec2(0, 1));
   Row here = rowAt(at);
   Row next = rowAt(at + ivec2(0, 1));
   for (int i = 0; i < int(SPREAD_CELLS); ++i) {
     Row last = rowAt(at + ivec2(0, i + 2));
-    settleCell(second * 2u + uvec2(0u, 2u * uint(i)), above, here, next, last);
+    settleCell(uvec2(at) * 2u + uvec2(0u, 2u * uint(i)), above, here, next, last);
     above = here;
     here = next;
     next = last;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What the rays of every second pixel saw, and the list of pixels between them that need rays of
-// their own: one buffer, see LIST_HEAD. Second pixel (i, j) is pixel (2 i, 2 j); those of the last
-// row and column may lie outside of the view by one, so that every pixel has neighbours around it.
+// What every second pixel shows, and the list of those that need rays of their own: one buffer, see
+// LIST_HEAD. Second pixel (i, j) is pixel (2 i, 2 j); every second of them along both axes, a
+// fourth pixel, has a ray in any case. Those of the last rows and columns may lie outside of the
+// view, by three pixels at most, so that all pixels have neighbours around them.
 layout(set = 0, binding = 11, std430) buffer SecondPixels { uint seconds[]; };
 // The same buffer: four words at once cost the driver hardly more than one.
 layout(set = 0, binding = 11, std430) buffer SecondRays { vec4 secondRays[]; };
@@ -14,8 +15,16 @@ uvec2 lastSecond() {
   return uvec2(volume.rect.zw) / 2u;
 }
 
+uvec2 firstFourth() {
+  return firstSecond() / 2u;
+}
+
+uvec2 lastFourth() {
+  return (lastSecond() + 1u) / 2u;
+}
+
 uvec2 secondsOfView() {
-  return uvec2(frame.viewport.xy) / 2u + 1u;
+  return uvec2(frame.viewport.xy) / 2u + 2u;
 }
 
 // In secondRays.
@@ -35,7 +44,13 @@ void storeSecond(uvec2 second, vec4 state, float end, vec2 hidden) {
   }
 }
 
-uvec2 listedPixel(uint number) {
+// Of one list's pixels, or second pixels.
+uvec2 listed(uint number) {
   uint both = seconds[listAddress() + number];
   return uvec2(both & 0xffffu, both >> 16u);
+}
+
+// Where the opaque depth of a ray is read: it may lie outside of the view.
+ivec2 insideView(uvec2 pixel) {
+  return ivec2(min(pixel, uvec2(frame.viewport.xy) - 1u));
 }

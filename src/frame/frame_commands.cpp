@@ -31,10 +31,10 @@ void FrameCommands::dispatch(VkPipeline pipeline, VkPipelineLayout layout,
   timestamp(statsIndex);
 }
 
-void FrameCommands::dispatchIndirect(VkPipeline pipeline, VkBuffer counts, WlkPassStats& stats,
-                                     uint32_t statsIndex) {
+void FrameCommands::dispatchIndirect(VkPipeline pipeline, VkBuffer counts, VkDeviceSize offset,
+                                     WlkPassStats& stats, uint32_t statsIndex) {
   vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-  vk.CmdDispatchIndirect(commands, counts, 0);
+  vk.CmdDispatchIndirect(commands, counts, offset);
   stats.commands += 1;
   view.record.stats.dispatches += 1;
   timestamp(statsIndex);

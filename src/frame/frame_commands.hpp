@@ -61,9 +61,10 @@ struct FrameCommands {
   void dispatch(VkPipeline pipeline, VkPipelineLayout layout,
                 const interface_::SliceConstants* push, uint32_t x, uint32_t y, WlkPassStats& stats,
                 uint32_t statsIndex, uint32_t z = 1);
-  // The same with the counts that the buffer begins with, which its invocations are not counted by.
-  void dispatchIndirect(VkPipeline pipeline, VkBuffer counts, WlkPassStats& stats,
-                        uint32_t statsIndex);
+  // With the last command's constants, and counts that the buffer has at an offset: invocations are
+  // not counted.
+  void dispatchIndirect(VkPipeline pipeline, VkBuffer counts, VkDeviceSize offset,
+                        WlkPassStats& stats, uint32_t statsIndex);
   // Ends a command of pass `index`; without one, starts the clock.
   void timestamp(uint32_t index = ~0u);
 

@@ -28,9 +28,10 @@ vk::PipelineKey eyeKey(const EyeVariant& v, uint32_t fields, const SliceQuality&
   return key;
 }
 
-vk::PipelineKey spreadKey(bool depth, bool distance) {
+vk::PipelineKey spreadKey(uint32_t to, bool depth, bool distance) {
   vk::PipelineKey key{vk::Pass::EyeSpread, VK_FORMAT_UNDEFINED, {}};
   key.constants[5] = depth;
+  key.constants[13] = to;
   key.constants[14] = distance;
   return key;
 }
@@ -172,11 +173,13 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
               for (const bool distance : {false, view.volumeDistance}) {
                 v.distance = distance;
                 if (stored && quality.halfVolumes) {
-                  v.rays = interface_::RAYS_OF_SECONDS;
+                  v.rays = interface_::RAYS_OF_FOURTHS;
                   pipelines.prepare(eyeKey(v, fields, quality));
                   v.rays = interface_::RAYS_OF_LIST;
                   pipelines.prepare(eyeKey(v, fields, quality));
-                  pipelines.prepare(spreadKey(depth, distance));
+                  for (const uint32_t to : SPREADS) {
+                    pipelines.prepare(spreadKey(to, depth, distance));
+                  }
                 } else {
                   v.rays = interface_::RAYS_OF_PIXELS;
                   pipelines.prepare(eyeKey(v, fields, quality));

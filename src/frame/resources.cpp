@@ -240,7 +240,7 @@ void makeAmbient(vk::Device& device, const SliceQuality& quality, uint32_t volum
 // Of the buffer of every second pixel and of the list (shaders/interface/slices.glsl), which three
 // pixels of four may be on.
 VkDeviceSize secondsBytes(const WlkViewInfo& info) {
-  const VkDeviceSize seconds = VkDeviceSize{info.width / 2 + 1} * (info.height / 2 + 1);
+  const VkDeviceSize seconds = VkDeviceSize{info.width / 2 + 2} * (info.height / 2 + 2);
   return 4 * (interface_::LIST_HEAD + (interface_::SECOND_SIZE + 3) * seconds);
 }
 
@@ -330,10 +330,10 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
       vk::Buffer(device, counterStride * framesInFlight,
                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
   const uint32_t batches = (quality.sliceCount + quality.batchSize - 1) / quality.batchSize;
-  // Volumes in every second pixel take three commands instead of one.
+  // Volumes not in every pixel take five commands instead of one.
   r.queryCount =
       6 + SURFACE_DISPATCHES * features.surfaces +
-      volumeCount * ((view.aerial ? 3 : 2) * batches + 3 + (quality.halfVolumes ? 2 : 0));
+      volumeCount * ((view.aerial ? 3 : 2) * batches + 3 + (quality.halfVolumes ? 4 : 0));
   const VkDeviceSize pixels = VkDeviceSize{info.width} * info.height;
   const uint32_t layers = volumeCount + features.surfaces;
   const VkDeviceSize stateBytes = layers > 0 ? pixels * 16 : 16;

@@ -32,14 +32,14 @@ vk::PipelineKey eyeKeyOf(const FrameCommands& c, const ViewTargets& targets,
                 volume.state->fieldKind(), c.quality);
 }
 
-// Whether rays are marched in every second pixel. Batches are not: what they leave is known only
+// Whether rays are marched in every fourth pixel. Batches' are not: what they leave is known only
 // after the last of them, when the light of the others is gone.
-bool marchesSeconds(const FrameCommands& c, const PlannedVolume& planned) {
+bool marchesFourths(const FrameCommands& c, const PlannedVolume& planned) {
   return c.quality.halfVolumes && c.in.volumes[planned.index].store != nullptr;
 }
 
-vk::PipelineKey spreadKeyOf(const ViewTargets& targets) {
-  return spreadKey(static_cast<bool>(targets.depth), static_cast<bool>(targets.volumeDistance));
+vk::PipelineKey spreadKeyOf(uint32_t to, const ViewTargets& targets) {
+  return spreadKey(to, static_cast<bool>(targets.depth), static_cast<bool>(targets.volumeDistance));
 }
 
 bool marchesFroxels(const FrameCommands& c) {
@@ -190,8 +190,8 @@ class VolumeRecorder {
   void dispatchEye(const SliceConstants& push, WlkPassStats& eye, uint32_t index) {
     const VkPipelineLayout layout = c_.pipelines.volumeLayout();
     c_.orderShaders();
-    if (marchesSeconds(c_, planned_)) {
-      dispatchSeconds(push, eye, index);
+    if (marchesFourths(c_, planned_)) {
+      dispatchFourths(push, eye, index);
     } else {
       c_.dispatch(c_.find(eyeKeyOf(c_, targets_, planned_, interface_::RAYS_OF_PIXELS)), layout,
                   &push, groups(covered_.rect.x1 - covered_.rect.x0),
@@ -210,21 +210,33 @@ class VolumeRecorder {
     }
   }
 
-  // Rays of every second pixel, those between them, and rays of the pixels where that will not do.
-  void dispatchSeconds(const SliceConstants& push, WlkPassStats& eye, uint32_t index) {
-    const VkPipelineLayout layout = c_.pipelines.volumeLayout();
+  // Rays of every fourth pixel; second pixels between them, then pixels between those, each with
+  // rays where that will not do.
+  void dispatchFourths(const SliceConstants& push, WlkPassStats& eye, uint32_t index) {
     const PixelRect& rect = covered_.rect;
-    const uint32_t width = rect.x1 / 2 - rect.x0 / 2 + 1;
-    const uint32_t height = rect.y1 / 2 - rect.y0 / 2 + 1;
-    c_.dispatch(c_.find(eyeKeyOf(c_, targets_, planned_, interface_::RAYS_OF_SECONDS)), layout,
-                &push, groups(width), groups(height), eye, index);
+    const PixelRect seconds{rect.x0 / 2, rect.y0 / 2, rect.x1 / 2 + 1, rect.y1 / 2 + 1};
+    const PixelRect fourths{seconds.x0 / 2, seconds.y0 / 2, seconds.x1 / 2 + 1, seconds.y1 / 2 + 1};
+    c_.dispatch(c_.find(eyeKeyOf(c_, targets_, planned_, interface_::RAYS_OF_FOURTHS)),
+                c_.pipelines.volumeLayout(), &push, groups(fourths.x1 - fourths.x0),
+                groups(fourths.y1 - fourths.y0), eye, index);
+    SliceConstants first = push;
+    first.flags |= interface_::SLICE_SECONDS;
+    dispatchSpread(interface_::SPREAD_TO_SECONDS, fourths, first, eye, index);
+    dispatchSpread(interface_::SPREAD_TO_PIXELS, seconds, push, eye, index);
+  }
+
+  // `rays`: the numbers of those between which the others are.
+  void dispatchSpread(uint32_t to, const PixelRect& rays, const SliceConstants& push,
+                      WlkPassStats& eye, uint32_t index) {
     c_.orderShaders();
-    c_.dispatch(c_.find(spreadKeyOf(targets_)), layout, &push, groups(width),
-                groups((height + SPREAD_CELLS - 1) / SPREAD_CELLS), eye, index);
+    c_.dispatch(c_.find(spreadKeyOf(to, targets_)), c_.pipelines.volumeLayout(), &push,
+                groups(rays.x1 - rays.x0),
+                groups((rays.y1 - rays.y0 + SPREAD_CELLS - 1) / SPREAD_CELLS), eye, index);
     c_.barrier({COMPUTE, SHADER_ACCESS}, {COMPUTE | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
                                           SHADER_ACCESS | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
+    const VkDeviceSize list = to == interface_::SPREAD_TO_SECONDS ? 0 : interface_::LIST_SIZE;
     c_.dispatchIndirect(c_.find(eyeKeyOf(c_, targets_, planned_, interface_::RAYS_OF_LIST)),
-                        c_.view.resources.volumeState.handle(), eye, index);
+                        c_.view.resources.volumeState.handle(), 4 * list, eye, index);
   }
 
   // Pixels whose froxels are marched: surfaces are in none, so that the first volume clears them.
@@ -355,10 +367,12 @@ void findVolumePipelines(const FrameCommands& commands, const ViewTargets& targe
   if (!planned.drawn) {
     return;
   }
-  if (marchesSeconds(commands, planned)) {
-    commands.find(eyeKeyOf(commands, targets, planned, interface_::RAYS_OF_SECONDS));
+  if (marchesFourths(commands, planned)) {
+    commands.find(eyeKeyOf(commands, targets, planned, interface_::RAYS_OF_FOURTHS));
     commands.find(eyeKeyOf(commands, targets, planned, interface_::RAYS_OF_LIST));
-    commands.find(spreadKeyOf(targets));
+    for (const uint32_t to : SPREADS) {
+      commands.find(spreadKeyOf(to, targets));
+    }
   } else {
     commands.find(eyeKeyOf(commands, targets, planned, interface_::RAYS_OF_PIXELS));
   }
