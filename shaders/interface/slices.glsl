@@ -37,11 +37,12 @@ struct SliceConstants {
   uint lightSize;
 };
 
-// What the march's rays belong to: pixels, froxels, every fourth pixel along both axes, pixels of a
-// list. The list and the spread before it are of every second pixel first, then of each.
+// What the march's rays belong to: pixels, froxels, every fourth or second pixel along both axes,
+// pixels of a list. After every fourth pixel, a spread and a list are of every second pixel; then, or
+// at once, they are of each.
 const uint RAYS_OF_PIXELS = 0u;
 const uint RAYS_OF_FROXELS = 1u;
-const uint RAYS_OF_FOURTHS = 2u;
+const uint RAYS_OF_GRID = 2u;
 const uint RAYS_OF_LIST = 3u;
 const uint SPREAD_TO_SECONDS = 0u;
 const uint SPREAD_TO_PIXELS = 1u;
@@ -59,4 +60,4 @@ const uint SPREAD_CELLS = 4u;  // cells of four pixels, one below the other, of 
 const uint SLICE_FIRST_BATCH = 1u;
 const uint SLICE_LAST_BATCH = 2u;
 const uint SLICE_FIRST_VOLUME = 4u;
-const uint SLICE_SECONDS = 8u;  // the list is of every second pixel
+const uint SLICE_SECONDS = 8u;  // the grid or the list is of every second pixel

@@ -50,7 +50,7 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 
 // Slices of froxels, one behind the other, instead of pixels: rays end at the slice's distance.
 const bool FROXELS = RAYS == RAYS_OF_FROXELS;
-const bool FOURTHS = RAYS == RAYS_OF_FOURTHS;
+const bool GRID = RAYS == RAYS_OF_GRID;
 const bool LISTED = RAYS == RAYS_OF_LIST;
 #include "second_pixels.glsl"
 
@@ -135,9 +135,11 @@ void main() {
   uvec2 tile = tileOf(gl_WorkGroupID.xy, gl_NumWorkGroups.xy);
   uvec2 offset = tile * 8u + gl_LocalInvocationID.xy;
   uvec2 pixel = uvec2(volume.rect.xy) + offset;
-  bool ofSecond = FOURTHS || (LISTED && (slice.flags & SLICE_SECONDS) != 0u);
-  if (FOURTHS) {
-    uvec2 fourth = firstFourth() + offset;
+  bool everySecond = (slice.flags & SLICE_SECONDS) != 0u;
+  bool ofSecond = GRID || (LISTED && everySecond);
+  if (GRID) {
+    uvec2 number = (everySecond ? firstSecond() : firstFourth()) + offset;
+    uvec2 last = everySecond ? lastSecond() : lastFourth();
     if (offset == uvec2(0u)) {
       for (uint list = 0u; list < LIST_HEAD; list += LIST_SIZE) {
         seconds[list] = LIST_ROW;
@@ -146,10 +148,10 @@ void main() {
         seconds[list + 3u] = 0u;
       }
     }
-    if (fourth.x > lastFourth().x || fourth.y > lastFourth().y) {
+    if (number.x > last.x || number.y > last.y) {
       return;
     }
-    pixel = fourth * 4u;
+    pixel = number * (everySecond ? 2u : 4u);
   } else if (LISTED) {
     uint number = (tile.y * LIST_ROW + tile.x) * 64u + gl_LocalInvocationIndex;
     if (number >= seconds[ofSecond ? 3u : LIST_SIZE + 3u]) {
@@ -164,7 +166,7 @@ void main() {
   vec3 direction = pixelDirection(frame, vec2(pixel));
   float surface = INFINITE_DISTANCE;
   if (DEPTH_ENABLED) {
-    ivec2 inside = FOURTHS || LISTED ? insideView(pixel) : ivec2(pixel);
+    ivec2 inside = GRID || LISTED ? insideView(pixel) : ivec2(pixel);
     float d = texelFetch(depthImage, inside, 0).x;
     surface = surfaceDistance(frame, vec2(pixel), d);
   }

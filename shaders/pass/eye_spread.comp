@@ -29,13 +29,13 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 #include "ray_end.glsl"
 #include "second_pixels.glsl"
 
+const bool TO_SECONDS = TO == SPREAD_TO_SECONDS;
 // Of differences over 16, in parts of the largest radiance around, of the transmittance in parts of
 // 1; over the number of slabs, since the fewer there are, the more they are wrong by themselves.
-const float SMOOTH_SLABS = 0.64f;
+// What second pixels miss the pixels between them miss as well: theirs may be half as much.
+const float SMOOTH_SLABS = TO_SECONDS ? 0.32f : 0.64f;
 // Of the ray's length inside the box, by which its end may miss what its neighbours' ends promise.
 const float SAME_END = 0.02f;
-
-const bool TO_SECONDS = TO == SPREAD_TO_SECONDS;
 
 // What a ray saw: radiance and transmittance; where it ends (m), 0 if it misses the box, and sums
 // for the volumes' distance.

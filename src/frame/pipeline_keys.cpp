@@ -173,7 +173,7 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
               for (const bool distance : {false, view.volumeDistance}) {
                 v.distance = distance;
                 if (stored && quality.halfVolumes) {
-                  v.rays = interface_::RAYS_OF_FOURTHS;
+                  v.rays = interface_::RAYS_OF_GRID;
                   pipelines.prepare(eyeKey(v, fields, quality));
                   v.rays = interface_::RAYS_OF_LIST;
                   pipelines.prepare(eyeKey(v, fields, quality));

@@ -297,6 +297,21 @@ PlannedVolume planVolume(const PlanInput& in, const PlanLights& lights, const Pl
   return result;
 }
 
+// 0 without perspective. What an axis of the picture shares with the view's leans it, no more.
+double pixelsAheadOf(const PlanInput& in) {
+  const glm::dmat4 rows = glm::transpose(in.clipFromEye);
+  const glm::dvec3 ahead(rows[3]);
+  const double length = glm::length(ahead);
+  if (!(length > 0)) {
+    return 0;
+  }
+  const glm::dvec3 forward = ahead / length;
+  const auto across = [&](const glm::dvec3& axis, uint32_t pixels) {
+    return glm::length(axis - forward * glm::dot(axis, forward)) / length * 0.5 * pixels;
+  };
+  return std::min(across(glm::dvec3(rows[0]), in.width), across(glm::dvec3(rows[1]), in.height));
+}
+
 }  // namespace
 
 uint32_t ambientCellsOf(uint32_t transportCells) {
@@ -416,6 +431,7 @@ static uint32_t planAll(const PlanInput& in, std::span<const PlanVolume> boxes, 
 
 void makePlan(const PlanInput& in, Plan& plan) {
   plan.quality = in.quality;
+  plan.pixelsAhead = pixelsAheadOf(in);
   plan.ambient = in.ambient;
   plan.volumeRect = {};
   const PlanetFrame eye = planetFrameAt(in.planet, in.eye);

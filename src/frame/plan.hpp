@@ -41,7 +41,7 @@ struct SliceQuality {
   uint32_t ambientRoom;
   bool volumeShadows;  // on air, fog and ground
   bool lightShadows;   // likewise, by the engine's map
-  bool halfVolumes;    // rays of stored volumes in every second pixel, and where these differ
+  bool halfVolumes;    // rays of stored volumes in some pixels, and where these differ
   bool multipleSky;    // light scattered more than once in air and fog
   // Index of the scattering tables.
   uint32_t form() const { return transport ? 2 : (forwardScattering && wholeOrders ? 1 : 0); }
@@ -135,6 +135,7 @@ struct Plan {
   uint32_t drawnCount = 0;                   // of the volumes
   uint32_t surfaceCount = 0;                 // of the surfaces
   PixelRect volumeRect;                      // union of the drawn ones of both
+  double pixelsAhead = 0;  // per metre across the view, one metre ahead, in the narrower direction
   bool air = false;
   bool absorber = false;  // in the air
   bool fog = false;

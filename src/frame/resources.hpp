@@ -82,7 +82,7 @@ vk::PipelineKey surfaceMapKey(bool fromLevel);
 vk::PipelineKey surfaceShadeKey(const SurfaceVariant& variant, const SliceQuality& quality);
 vk::PipelineKey distanceKey();
 // What pixels between rays take on.
-constexpr std::array SPREADS{interface_::SPREAD_TO_SECONDS, interface_::SPREAD_TO_PIXELS};
+inline constexpr std::array SPREADS{interface_::SPREAD_TO_SECONDS, interface_::SPREAD_TO_PIXELS};
 vk::PipelineKey spreadKey(uint32_t to, bool depth, bool distance);
 vk::PipelineKey eyeKey(const EyeVariant& variant, uint32_t fields, const SliceQuality& quality);
 inline constexpr std::array TRANSPORT_PASSES{

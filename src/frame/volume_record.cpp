@@ -32,14 +32,27 @@ vk::PipelineKey eyeKeyOf(const FrameCommands& c, const ViewTargets& targets,
                 volume.state->fieldKind(), c.quality);
 }
 
-// Whether rays are marched in every fourth pixel. Batches' are not: what they leave is known only
+// Whether rays are marched in a grid of pixels. Batches' are not: what they leave is known only
 // after the last of them, when the light of the others is gone.
-bool marchesFourths(const FrameCommands& c, const PlannedVolume& planned) {
+bool marchesGrid(const FrameCommands& c, const PlannedVolume& planned) {
   return c.quality.halfVolumes && c.in.volumes[planned.index].store != nullptr;
 }
 
 vk::PipelineKey spreadKeyOf(uint32_t to, const ViewTargets& targets) {
   return spreadKey(to, static_cast<bool>(targets.depth), static_cast<bool>(targets.volumeDistance));
+}
+
+// Whether every fourth pixel sees all there is: a voxel's density reaches over twice its edge,
+// which has to be as far as from ray to ray at the box's far end.
+bool fourthsSeeAll(const FrameCommands& c, const PlannedVolume& planned) {
+  constexpr double LEAST_PIXELS = 2;
+  const VolumeState& volume = *c.in.volumes[planned.index].state;
+  const glm::dmat3 planes = glm::transpose(glm::inverse(glm::dmat3(volume.worldFromBox)));
+  double edge = planned.farthest;
+  for (int i = 0; i < 3; ++i) {
+    edge = std::min(edge, 1.0 / (glm::length(planes[i]) * volume.size[static_cast<size_t>(i)]));
+  }
+  return edge * c.view.plan.pixelsAhead >= LEAST_PIXELS * planned.farthest;
 }
 
 bool marchesFroxels(const FrameCommands& c) {
@@ -190,8 +203,8 @@ class VolumeRecorder {
   void dispatchEye(const SliceConstants& push, WlkPassStats& eye, uint32_t index) {
     const VkPipelineLayout layout = c_.pipelines.volumeLayout();
     c_.orderShaders();
-    if (marchesFourths(c_, planned_)) {
-      dispatchFourths(push, eye, index);
+    if (marchesGrid(c_, planned_)) {
+      dispatchGrid(push, eye, index);
     } else {
       c_.dispatch(c_.find(eyeKeyOf(c_, targets_, planned_, interface_::RAYS_OF_PIXELS)), layout,
                   &push, groups(covered_.rect.x1 - covered_.rect.x0),
@@ -210,18 +223,22 @@ class VolumeRecorder {
     }
   }
 
-  // Rays of every fourth pixel; second pixels between them, then pixels between those, each with
-  // rays where that will not do.
-  void dispatchFourths(const SliceConstants& push, WlkPassStats& eye, uint32_t index) {
+  // Rays of every fourth pixel and second pixels between them, or rays of every second pixel; then
+  // pixels between those; each with rays where what is around will not do.
+  void dispatchGrid(const SliceConstants& push, WlkPassStats& eye, uint32_t index) {
     const PixelRect& rect = covered_.rect;
     const PixelRect seconds{rect.x0 / 2, rect.y0 / 2, rect.x1 / 2 + 1, rect.y1 / 2 + 1};
     const PixelRect fourths{seconds.x0 / 2, seconds.y0 / 2, seconds.x1 / 2 + 1, seconds.y1 / 2 + 1};
-    c_.dispatch(c_.find(eyeKeyOf(c_, targets_, planned_, interface_::RAYS_OF_FOURTHS)),
-                c_.pipelines.volumeLayout(), &push, groups(fourths.x1 - fourths.x0),
-                groups(fourths.y1 - fourths.y0), eye, index);
-    SliceConstants first = push;
-    first.flags |= interface_::SLICE_SECONDS;
-    dispatchSpread(interface_::SPREAD_TO_SECONDS, fourths, first, eye, index);
+    const bool far = fourthsSeeAll(c_, planned_);
+    const PixelRect& rays = far ? fourths : seconds;
+    SliceConstants ofSeconds = push;
+    ofSeconds.flags |= interface_::SLICE_SECONDS;
+    c_.dispatch(c_.find(eyeKeyOf(c_, targets_, planned_, interface_::RAYS_OF_GRID)),
+                c_.pipelines.volumeLayout(), far ? &push : &ofSeconds, groups(rays.x1 - rays.x0),
+                groups(rays.y1 - rays.y0), eye, index);
+    if (far) {
+      dispatchSpread(interface_::SPREAD_TO_SECONDS, fourths, ofSeconds, eye, index);
+    }
     dispatchSpread(interface_::SPREAD_TO_PIXELS, seconds, push, eye, index);
   }
 
@@ -367,8 +384,8 @@ void findVolumePipelines(const FrameCommands& commands, const ViewTargets& targe
   if (!planned.drawn) {
     return;
   }
-  if (marchesFourths(commands, planned)) {
-    commands.find(eyeKeyOf(commands, targets, planned, interface_::RAYS_OF_FOURTHS));
+  if (marchesGrid(commands, planned)) {
+    commands.find(eyeKeyOf(commands, targets, planned, interface_::RAYS_OF_GRID));
     commands.find(eyeKeyOf(commands, targets, planned, interface_::RAYS_OF_LIST));
     for (const uint32_t to : SPREADS) {
       commands.find(spreadKeyOf(to, targets));

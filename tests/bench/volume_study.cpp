@@ -324,6 +324,9 @@ double timeAtError(const std::vector<VolumeRow>& rows, const std::string& method
                    double VolumeRow::*time) {
   const std::vector<const VolumeRow*> front = frontOf(rows, method, time);
   constexpr double ROUNDING = 1e-9;
+  if (!front.empty() && error > front.back()->error) {
+    return front.back()->*time;  // the cheapest, with an error to spare
+  }
   for (size_t i = 0; i + 1 < front.size(); ++i) {
     const VolumeRow& a = *front[i];
     const VolumeRow& b = *front[i + 1];

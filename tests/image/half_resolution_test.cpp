@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Volumes with rays in every second pixel against those with rays in each: how far pictures differ,
-// opaque edges in front of a cloud, odd and tiny views, several volumes.
+// Volumes with rays in every fourth pixel first against those with rays in each: how far pictures
+// differ, opaque edges in front of a cloud, odd and tiny views, several volumes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,12 +26,25 @@ struct HalfScene : HeadlessScene {
     o.height = height;
     return o;
   }
-  WlkVolume addCloud(const std::array<double, 3>& lo, double edge, double depth) const {
+  WlkVolume addCloud(const std::array<double, 3>& lo, double edge, double depth,
+                     uint32_t size = N) const {
     const WlkVolume volume =
-        addVolume(addHenyeyGreenstein(0.6f), {N, N, N}, boxTransform(lo, {edge, edge, edge}),
-                  static_cast<float>(depth * N / edge));
-    upload(volume, {N, N, N}, reference::noiseCloud());
+        addVolume(addHenyeyGreenstein(0.6f), {size, size, size},
+                  boxTransform(lo, {edge, edge, edge}), static_cast<float>(depth * N / edge));
+    upload(volume, {size, size, size}, cloudOf(size));
     return volume;
+  }
+  // Every so many voxels of the noise cloud.
+  static std::vector<float> cloudOf(uint32_t size) {
+    const std::vector<float> all = reference::noiseCloud();
+    std::vector<float> some;
+    for (uint32_t i = 0; i < size * size * size; ++i) {
+      const uint32_t x = i % size;
+      const uint32_t y = i / size % size;
+      const uint32_t z = i / size / size;
+      some.push_back(all[N / size * (x + N * (y + N * z))]);
+    }
+    return some;
   }
   Image at(uint32_t resolution, const WlkHeadlessInputs* targets = nullptr,
            uint32_t scattering = WLK_SCATTERING_FORWARD, uint32_t batch = 0) const {
@@ -81,10 +94,16 @@ double rmsOfSeen(const Image& image, const Image& truth) {
   return std::sqrt(squares / count) / (sum / count);
 }
 
-// What eye_spread.comp lets through at 32 slabs, as a part of the brightest neighbour.
+// What eye_spread.comp lets through at 32 slabs, as a part of the brightest neighbour (half as much
+// of second pixels).
 constexpr double BOUND = 0.64 / 32;
 // Steps of 8 bounds, half of which a pixel between is wrong by, and as much along the other axis.
 constexpr double LARGEST = BOUND * 8 / 2 * 2;
+
+// In views of 120 pixels and more voxels of less than 2 pixels, which every second ray is for, and
+// of more, which every fourth is for.
+constexpr uint32_t FINE = N;
+constexpr uint32_t COARSE = N / 4;
 
 struct Shape {
   uint32_t width;
@@ -94,9 +113,10 @@ struct Shape {
 TEST(HalfResolution, GivesThePictureOfAllRaysWithinItsBound) {
   for (const uint32_t scattering :
        {WLK_SCATTERING_SINGLE, WLK_SCATTERING_FORWARD, WLK_SCATTERING_ALL_ORDERS}) {
-    for (const bool sky : {false, true}) {
+    for (const auto& [sky, size] :
+         {std::pair{false, FINE}, std::pair{true, FINE}, std::pair{true, COARSE}}) {
       HalfScene scene(120, 90);
-      scene.addCloud({-1000, -1000, -4000}, 2000, 0.3);
+      scene.addCloud({-1000, -1000, -4000}, 2000, 0.3, size);
       if (sky) {
         scene.setSky();
       }
@@ -104,7 +124,8 @@ TEST(HalfResolution, GivesThePictureOfAllRaysWithinItsBound) {
       const Image half = scene.at(WLK_VOLUME_RESOLUTION_HALF, nullptr, scattering);
       const double rms = rmsOfSeen(half, full);
       const double largest = largestDifference(half, full);
-      std::printf("scattering %u, sky %d: RMS %.2e, largest %.2e\n", scattering, sky, rms, largest);
+      std::printf("scattering %u, sky %d, %u voxels: RMS %.2e, largest %.2e\n", scattering, sky,
+                  size, rms, largest);
       EXPECT_GT(rms, 0.0) << "some pixels take on what their neighbours see";
       EXPECT_LT(rms, BOUND);
       EXPECT_LT(largest, LARGEST);
@@ -115,11 +136,11 @@ TEST(HalfResolution, GivesThePictureOfAllRaysWithinItsBound) {
 
 // Largest difference of the pixels that have rays of their own: none, since one text computes them
 // and the driver contracts nothing.
-double largestOfSeconds(const Image& a, const Image& b, uint32_t width) {
+double largestOfGrid(const Image& a, const Image& b, uint32_t width, uint32_t every) {
   double largest = 0;
   for (size_t i = 0; i < b.rgba.size(); ++i) {
     const size_t pixel = i / 4;
-    if (pixel % width % 2 == 0 && pixel / width % 2 == 0) {
+    if (pixel % width % every == 0 && pixel / width % every == 0) {
       largest = std::max(largest, std::abs(double{a.rgba[i]} - double{b.rgba[i]}));
     }
   }
@@ -128,12 +149,15 @@ double largestOfSeconds(const Image& a, const Image& b, uint32_t width) {
 
 TEST(HalfResolution, LeavesPixelsWithRaysOfTheirOwnAsTheyAre) {
   for (const uint32_t scattering : {WLK_SCATTERING_SINGLE, WLK_SCATTERING_ALL_ORDERS}) {
-    HalfScene scene(60, 44);
-    scene.addCloud({-1000, -1000, -4000}, 2000, 0.3);
-    scene.setSky();  // transmittance shows, too
-    const Image full = scene.at(WLK_VOLUME_RESOLUTION_FULL, nullptr, scattering);
-    const Image half = scene.at(WLK_VOLUME_RESOLUTION_HALF, nullptr, scattering);
-    EXPECT_EQ(largestOfSeconds(half, full, 60), 0.0) << "scattering " << scattering;
+    for (const auto& [size, every] : {std::pair{FINE, 2u}, std::pair{COARSE, 4u}}) {
+      HalfScene scene(120, 44);
+      scene.addCloud({-1000, -1000, -4000}, 2000, 0.3, size);
+      scene.setSky();  // transmittance shows, too
+      const Image full = scene.at(WLK_VOLUME_RESOLUTION_FULL, nullptr, scattering);
+      const Image half = scene.at(WLK_VOLUME_RESOLUTION_HALF, nullptr, scattering);
+      EXPECT_EQ(largestOfGrid(half, full, 120, every), 0.0) << scattering << " " << size;
+      EXPECT_FALSE(half == full);
+    }
   }
 }
 
@@ -170,9 +194,10 @@ TEST(HalfResolution, HoldsInsideACloudAndBehindOthers) {
 TEST(HalfResolution, LeavesNoHaloAtOpaqueEdges) {
   constexpr uint32_t SIZE = 65;
   constexpr float NEAR = 0.1f;  // of the default camera: depth = near / distance along the view
-  for (const float distance : {500.0f, 1800.0f}) {
+  for (const auto& [distance, size] : {std::pair{500.0f, FINE}, std::pair{1800.0f, FINE},
+                                       std::pair{500.0f, N / 8}, std::pair{1800.0f, N / 8}}) {
     HalfScene scene(SIZE, SIZE);
-    scene.addCloud({-1500, -1500, -4500}, 3000, 0.2);
+    scene.addCloud({-1500, -1500, -4500}, 3000, 0.2, size);
     std::vector<float> depth(size_t{SIZE} * SIZE);
     std::vector<float> color(4 * depth.size(), 0.0f);
     for (uint32_t y = 0; y < SIZE; ++y) {
@@ -251,10 +276,11 @@ TEST(HalfResolution, IsWhatLevelsTake) {
   EXPECT_TRUE(scene.render() == picture(WLK_QUALITY_ULTRA, WLK_VOLUME_RESOLUTION_HALF));
 }
 
-// Three commands for one where it is asked for; nothing else is recorded where it is not.
-TEST(HalfResolution, RecordsThreeCommandsForOne) {
-  HalfScene scene(64, 48);
-  scene.addCloud({-1000, -1000, -4000}, 2000, 0.3);
+// Three commands for one where it is asked for, five where every fourth ray sees all voxels;
+// nothing else is recorded where it is not.
+TEST(HalfResolution, RecordsWhatItsRaysNeed) {
+  HalfScene scene(128, 96);
+  const WlkVolume fine = scene.addCloud({-1000, -1000, -4000}, 2000, 0.3, FINE);
   const auto eye = [&] {
     for (const WlkPassStats& pass : scene.passes()) {
       if (pass.pass == WLK_PASS_EYE_SLICES) {
@@ -268,7 +294,17 @@ TEST(HalfResolution, RecordsThreeCommandsForOne) {
   const uint64_t full = eye().invocations;
   scene.half();
   EXPECT_EQ(eye().commands, 3u);
-  EXPECT_LT(eye().invocations, full) << "but for those of the list";
+  const uint64_t seconds = eye().invocations;
+  EXPECT_LT(seconds, full) << "but for those of the list";
+  wlkDestroyVolume(scene.context, fine);
+  scene.addCloud({-1000, -1000, -4000}, 2000, 0.3, COARSE);
+  scene.half();
+  EXPECT_EQ(eye().commands, 5u);
+  EXPECT_LT(eye().invocations, seconds);
+  // Voxels of less than 2 pixels from so far.
+  scene.setCamera({0, 0, 3000}, 0, 0);
+  scene.half();
+  EXPECT_EQ(eye().commands, 3u);
 }
 
 }  // namespace
