@@ -55,6 +55,7 @@ const uint LIST_SIZE = 4u;
 const uint LIST_HEAD = 8u;
 const uint SECOND_SIZE = 8u;
 const uint LIST_ROW = 16u;  // groups of the list's dispatch along x
+const uint SPREAD_COLUMNS = 2u;
 const uint SPREAD_CELLS = 4u;  // cells of four pixels, one below the other, of an invocation
 
 const uint SLICE_FIRST_BATCH = 1u;

@@ -2,8 +2,8 @@
 // Radiance and transmittance of second pixels between the rays of every fourth one, then of pixels
 // between those of every second one (second_pixels.glsl): by cubics through the four nearest along
 // each axis where those are smooth and end at the same surface; the others go on a list, whose
-// pixels are marched next. An invocation goes down a column of SPREAD_CELLS times 2 x 2 of them, so
-// that it reads each row's rays once.
+// pixels are marched next. An invocation goes down SPREAD_COLUMNS columns of SPREAD_CELLS times 2 x 2
+// of them, so that it reads each row's rays once.
 //
 // Smooth: second and third differences bound what a cubic misses. A step between the middle two of
 // four, which leaves the second difference 0, has a third one of twice its height, so that steps of
@@ -179,17 +179,31 @@ struct Row {
   Ray most;
 };
 
-Row rowAt(ivec2 at) {
-  Ray a = rayAt(at - ivec2(1, 0));
-  Ray b = rayAt(at);
-  Ray c = rayAt(at + ivec2(1, 0));
-  Ray d = rayAt(at + ivec2(2, 0));
+// Of two cells beside each other.
+struct Rows {
+  Row left;
+  Row right;
+};
+
+Row rowOf(Ray a, Ray b, Ray c, Ray d) {
   Row row;
   row.second = b;
   row.between = cubic(a, b, c, d);
   row.error = cubicError(a, b, c, d);
   row.most = larger(b, c);
   return row;
+}
+
+Rows rowsAt(ivec2 at) {
+  Ray a = rayAt(at - ivec2(1, 0));
+  Ray b = rayAt(at);
+  Ray c = rayAt(at + ivec2(1, 0));
+  Ray d = rayAt(at + ivec2(2, 0));
+  Ray e = rayAt(at + ivec2(3, 0));
+  Rows rows;
+  rows.left = rowOf(a, b, c, d);
+  rows.right = rowOf(b, c, d, e);
+  return rows;
 }
 
 // 2 x 2 of them, the first of which has a ray of its own, from the four rows around.
@@ -226,16 +240,18 @@ void settleCell(uvec2 corner, Row above, Row here, Row next, Row last) {
 }
 
 void main() {
-  ivec2 at = firstRay() + ivec2(gl_GlobalInvocationID.xy * uvec2(1u, SPREAD_CELLS));
+  ivec2 at = firstRay() + ivec2(gl_GlobalInvocationID.xy * uvec2(SPREAD_COLUMNS, SPREAD_CELLS));
   if (!inside(uvec2(at) * 2u)) {
     return;
   }
-  Row above = rowAt(at - ivec2(0, 1));
-  Row here = rowAt(at);
-  Row next = rowAt(at + ivec2(0, 1));
+  Rows above = rowsAt(at - ivec2(0, 1));
+  Rows here = rowsAt(at);
+  Rows next = rowsAt(at + ivec2(0, 1));
   for (int i = 0; i < int(SPREAD_CELLS); ++i) {
-    Row last = rowAt(at + ivec2(0, i + 2));
-    settleCell(uvec2(at) * 2u + uvec2(0u, 2u * uint(i)), above, here, next, last);
+    Rows last = rowsAt(at + ivec2(0, i + 2));
+    uvec2 corner = uvec2(at) * 2u + uvec2(0u, 2u * uint(i));
+    settleCell(corner, above.left, here.left, next.left, last.left);
+    settleCell(corner + uvec2(2u, 0u), above.right, here.right, next.right, last.right);
     above = here;
     here = next;
     next = last;

@@ -18,6 +18,7 @@ namespace {
 using interface_::FrameUniforms;
 using interface_::SliceConstants;
 using interface_::SPREAD_CELLS;
+using interface_::SPREAD_COLUMNS;
 using interface_::VolumeUniforms;
 
 vk::PipelineKey eyeKeyOf(const FrameCommands& c, const ViewTargets& targets,
@@ -247,7 +248,7 @@ class VolumeRecorder {
                       WlkPassStats& eye, uint32_t index) {
     c_.orderShaders();
     c_.dispatch(c_.find(spreadKeyOf(to, targets_)), c_.pipelines.volumeLayout(), &push,
-                groups(rays.x1 - rays.x0),
+                groups((rays.x1 - rays.x0 + SPREAD_COLUMNS - 1) / SPREAD_COLUMNS),
                 groups((rays.y1 - rays.y0 + SPREAD_CELLS - 1) / SPREAD_CELLS), eye, index);
     c_.barrier({COMPUTE, SHADER_ACCESS}, {COMPUTE | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
                                           SHADER_ACCESS | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
