@@ -75,7 +75,7 @@ struct EqualError {
   bool halved;
 };
 
-// The library with rays in every pixel or in every second, whichever is faster at that error.
+// The library with rays in every pixel or in some, whichever is faster at that error.
 std::vector<EqualError> equalErrors(const VolumeStudy& study) {
   std::vector<EqualError> result;
   for (const double error : commonErrors(study.rows)) {
@@ -141,12 +141,12 @@ std::string studyTable(const std::vector<VolumeStudy>& studies) {
 
 std::string equalTable(const std::vector<VolumeStudy>& studies) {
   std::string text =
-      "| cloud | error, % | rays in every | welkin, ms | slicer, ms | welkin / slicer | of CPU "
+      "| cloud | error, % | rays in | welkin, ms | slicer, ms | welkin / slicer | of CPU "
       "time |\n|---|---|---|---|---|---|---|\n";
   for (const VolumeStudy& study : studies) {
     for (const EqualError& at : equalErrors(study)) {
       text += format("| %s | %.2f | %s | %.0f | %.0f | %.2f | %.2f |\n", study.one.name.c_str(),
-                     100 * at.error, at.halved ? "second pixel" : "pixel", at.welkin_ms,
+                     100 * at.error, at.halved ? "some pixels" : "each pixel", at.welkin_ms,
                      at.slicer_ms, at.ratio, at.cpuRatio);
     }
   }

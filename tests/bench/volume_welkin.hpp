@@ -16,7 +16,7 @@ struct WelkinVolumeOptions {
   uint32_t lightSize = 0;
   uint32_t views = 1;        // side by side, 6 cm apart
   bool fresh = false;        // light is computed in every frame
-  bool half = false;         // rays of every second pixel
+  bool half = false;         // rays of some pixels
   uint32_t deep = 1;         // the volume in clouds' edges, all but the nearest of them empty
   bool emptyVolume = false;  // a second volume that holds nothing
   // The default sky and orders of scattering, and the cloud below the horizon in the picture.

@@ -153,8 +153,9 @@ enum {
   WLK_VOLUME_RESOLUTION_DEFAULT = 0,
   /** In each. */
   WLK_VOLUME_RESOLUTION_FULL = 1,
-  /** In every second one along both axes. Those between take on what their neighbours see where
-   *  that is smooth (to 0.64 / sliceCount) and ends at the same surface; others have their own.
+  /** In every second one along both axes, in every fourth first where voxels are as wide as 2.
+   *  Those between take on what their neighbours see where that is smooth (to 0.64 / sliceCount)
+   *  and ends at the same surface; others have their own.
    *  Where all slabs' light is kept (see batchSize); never of surfaces, air, fog, froxels. */
   WLK_VOLUME_RESOLUTION_HALF = 2
 };
