@@ -31,20 +31,8 @@ struct HalfScene : HeadlessScene {
     const WlkVolume volume =
         addVolume(addHenyeyGreenstein(0.6f), {size, size, size},
                   boxTransform(lo, {edge, edge, edge}), static_cast<float>(depth * N / edge));
-    upload(volume, {size, size, size}, cloudOf(size));
+    upload(volume, {size, size, size}, reference::coarseNoiseCloud(size));
     return volume;
-  }
-  // Every so many voxels of the noise cloud.
-  static std::vector<float> cloudOf(uint32_t size) {
-    const std::vector<float> all = reference::noiseCloud();
-    std::vector<float> some;
-    for (uint32_t i = 0; i < size * size * size; ++i) {
-      const uint32_t x = i % size;
-      const uint32_t y = i / size % size;
-      const uint32_t z = i / size / size;
-      some.push_back(all[N / size * (x + N * (y + N * z))]);
-    }
-    return some;
   }
   Image at(uint32_t resolution, const WlkHeadlessInputs* targets = nullptr,
            uint32_t scattering = WLK_SCATTERING_FORWARD, uint32_t batch = 0) const {

@@ -80,6 +80,17 @@ inline std::vector<float> noiseCloud() {
   });
 }
 
+// Of every so many of its voxels along each axis one.
+inline std::vector<float> coarseNoiseCloud(size_t size) {
+  constexpr size_t N = NOISE_CLOUD_SIZE;
+  const std::vector<float> all = noiseCloud();
+  std::vector<float> some;
+  for (size_t i = 0; i < size * size * size; ++i) {
+    some.push_back(all[N / size * (i % size + N * (i / size % size + N * (i / size / size)))]);
+  }
+  return some;
+}
+
 // As from a large-eddy simulation: full density within a voxel or two of the edge, holes inside.
 // Meant for 4 optical depths per voxel at value 1.
 constexpr int STEEP_CLOUD_SIZE = 40;
