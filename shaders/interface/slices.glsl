@@ -38,7 +38,7 @@ struct SliceConstants {
 };
 
 // What the march's rays belong to: pixels, froxels, every fourth or second pixel along both axes,
-// pixels of a list. After every fourth pixel, a spread and a list are of every second pixel; then, or
+// pixels of a list. After every fourth pixel, a spread and a list are of every second one; then, or
 // at once, they are of each.
 const uint RAYS_OF_PIXELS = 0u;
 const uint RAYS_OF_FROXELS = 1u;

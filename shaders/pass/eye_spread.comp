@@ -2,8 +2,8 @@
 // Radiance and transmittance of second pixels between the rays of every fourth one, then of pixels
 // between those of every second one (second_pixels.glsl): by cubics through the four nearest along
 // each axis where those are smooth and end at the same surface; the others go on a list, whose
-// pixels are marched next. An invocation goes down SPREAD_COLUMNS columns of SPREAD_CELLS times 2 x 2
-// of them, so that it reads each row's rays once.
+// pixels are marched next. An invocation goes down SPREAD_COLUMNS columns of SPREAD_CELLS cells of
+// 2 x 2, so that it reads each row's rays once.
 //
 // Smooth: second and third differences bound what a cubic misses. A step between the middle two of
 // four, which leaves the second difference 0, has a third one of twice its height, so that steps of

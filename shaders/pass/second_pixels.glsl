@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What every second pixel shows, and the list of those that need rays of their own: one buffer, see
-// LIST_HEAD. Second pixel (i, j) is pixel (2 i, 2 j); all of them have rays, or every second of them
-// along both axes, a fourth pixel, has one. Those of the last rows and columns may lie outside of the
+// LIST_HEAD. Second pixel (i, j) is pixel (2 i, 2 j); all of them have rays, or every second one
+// along both axes, a fourth pixel, has. Those of the last rows and columns may lie outside of the
 // view, by three pixels at most, so that all pixels have neighbours around them.
 layout(set = 0, binding = 11, std430) buffer SecondPixels { uint seconds[]; };
 // The same buffer: four words at once cost the driver hardly more than one.
