@@ -71,6 +71,15 @@ vec4 middleOf(vec4 a, vec4 b, vec4 c, vec4 d) {
   return (9.0f * (b + c) - (a + d)) * 0.0625f;
 }
 
+// Whether a second pixel's ray meets the box where those around have seen nothing at all: that
+// promises nothing for what is narrower than they are apart.
+bool blind(uvec2 second, Ray between, Ray error) {
+  vec3 direction = pixelDirection(frame, vec2(second * 2u));
+  vec3 along = (volume.boxFromEye * vec4(direction, 0.0f)).xyz;
+  Span span = rayBox(volume.boxFromEye[3].xyz, along, vec3(0.0f), vec3(1.0f));
+  return between.state.w == 1.0f && error.state.w == 0.0f && span.end > span.begin;
+}
+
 // Where the ray ends inside the box and where it enters it, m; 0 if it misses.
 vec2 endOf(uvec2 pixel) {
   vec3 direction = pixelDirection(frame, vec2(pixel));
@@ -157,7 +166,8 @@ void settle(uvec2 at, Ray between, Ray error, Ray most, inout uint count, inout 
     return;
   }
   vec2 own = DEPTH_ENABLED ? endOf(at * (TO_SECONDS ? 2u : 1u)) : vec2(0.0f);
-  if (serves(own, between, error, most)) {
+  bool unseen = TO_SECONDS && blind(at, between, error);
+  if (!unseen && serves(own, between, error, most)) {
     if (TO_SECONDS) {
       storeSecond(at, between.state, own.x, between.sums.yz);
     } else {

@@ -297,7 +297,8 @@ PlannedVolume planVolume(const PlanInput& in, const PlanLights& lights, const Pl
   return result;
 }
 
-// 0 without perspective. What an axis of the picture shares with the view's leans it, no more.
+// 0 without perspective. What a row of the matrix shares with the view's axis shifts the picture
+// and scales nothing.
 double pixelsAheadOf(const PlanInput& in) {
   const glm::dmat4 rows = glm::transpose(in.clipFromEye);
   const glm::dvec3 ahead(rows[3]);

@@ -43,9 +43,10 @@ vk::PipelineKey spreadKeyOf(uint32_t to, const ViewTargets& targets) {
   return spreadKey(to, static_cast<bool>(targets.depth), static_cast<bool>(targets.volumeDistance));
 }
 
-// Whether every fourth pixel sees all there is: a voxel's density reaches over twice its edge,
-// which has to be as far as from ray to ray at the box's far end.
-bool fourthsSeeAll(const FrameCommands& c, const PlannedVolume& planned) {
+// Whether voxels are wide enough for rays in every fourth pixel: a voxel's density reaches over
+// twice its edge, which has to be as far as from ray to ray at the box's far end. At the box's
+// sides it reaches less far: eye_spread.comp looks where rays have seen nothing.
+bool fourthsServe(const FrameCommands& c, const PlannedVolume& planned) {
   constexpr double LEAST_PIXELS = 2;
   const VolumeState& volume = *c.in.volumes[planned.index].state;
   const glm::dmat3 planes = glm::transpose(glm::inverse(glm::dmat3(volume.worldFromBox)));
@@ -230,7 +231,7 @@ class VolumeRecorder {
     const PixelRect& rect = covered_.rect;
     const PixelRect seconds{rect.x0 / 2, rect.y0 / 2, rect.x1 / 2 + 1, rect.y1 / 2 + 1};
     const PixelRect fourths{seconds.x0 / 2, seconds.y0 / 2, seconds.x1 / 2 + 1, seconds.y1 / 2 + 1};
-    const bool far = fourthsSeeAll(c_, planned_);
+    const bool far = fourthsServe(c_, planned_);
     const PixelRect& rays = far ? fourths : seconds;
     SliceConstants ofSeconds = push;
     ofSeconds.flags |= interface_::SLICE_SECONDS;

@@ -88,8 +88,8 @@ constexpr double BOUND = 0.64 / 32;
 // Steps of 8 bounds, half of which a pixel between is wrong by, and as much along the other axis.
 constexpr double LARGEST = BOUND * 8 / 2 * 2;
 
-// In views of 120 pixels and more voxels of less than 2 pixels, which every second ray is for, and
-// of more, which every fourth is for.
+// Voxels of less than 2 pixels in views of 120 to 130, which rays of every second pixel are for,
+// and of more, which those of every fourth are for.
 constexpr uint32_t FINE = N;
 constexpr uint32_t COARSE = N / 4;
 
@@ -223,6 +223,21 @@ TEST(HalfResolution, LeavesNoHaloAtOpaqueEdges) {
     if (distance < 1000) {
       EXPECT_EQ(worst, 0.0) << "nothing of the cloud in front of the wall";
     }
+  }
+}
+
+// Three pixels high, less than rays of every fourth one are apart: nothing of one voxel reaches
+// beyond the box.
+TEST(HalfResolution, SeesALayerWhereverItLiesBetweenRays) {
+  HalfScene scene(120, 90);
+  const WlkVolume layer =
+      scene.addVolume(scene.addHenyeyGreenstein(0.6f), {8, 1, 1},
+                      boxTransform({-1000, -60, -4400}, {2000, 150, 240}), 0.01f);
+  scene.upload(layer, {8, 1, 1}, std::vector<float>(8, 1.0f));
+  for (int i = 0; i < 8; ++i) {
+    scene.setCamera({0, 26.0 * i, 0}, 0, 0);  // 208 m, 4 pixels in all
+    const Image full = scene.full();
+    EXPECT_LT(largestDifference(scene.half(), full), LARGEST) << i;
   }
 }
 
