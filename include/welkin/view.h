@@ -153,7 +153,7 @@ enum {
   WLK_VOLUME_RESOLUTION_DEFAULT = 0,
   /** In each. */
   WLK_VOLUME_RESOLUTION_FULL = 1,
-  /** In every second one along both axes, in every fourth first where voxels are as wide as 2.
+  /** In every second one along both axes, in every fourth first where voxels are 2 wide.
    *  Those between take on what their neighbours see where that is smooth (to 0.64 / sliceCount)
    *  and ends at the same surface; others have their own.
    *  Where all slabs' light is kept (see batchSize); never of surfaces, air, fog, froxels. */

@@ -321,7 +321,7 @@ uint32_t ambientCellsOf(uint32_t transportCells) {
 }
 
 // Marched in every second pixel, and where these differ, a picture of 960 x 540 costs 0.27 to 0.45
-// of the time at the same error, from every fourth one on 0.15 to 0.2
+// of the time at the same error, from every fourth one on 0.14 to 0.23
 // (docs/accuracy-and-performance.md). All rungs of a controlled view alike.
 bool halvesVolumes(const WlkQuality& quality) {
   if (quality.volumeResolution != WLK_VOLUME_RESOLUTION_DEFAULT) {
