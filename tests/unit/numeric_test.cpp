@@ -132,7 +132,8 @@ TEST(ErrorSample, QuantilesAreOrderStatistics) {
 
 TEST(Numeric, MeanOfAnExponentialIsAccurateForEveryDistance) {
   // Roundings of the far exponential (2, once more of its cast) and of the difference, which beyond
-  // the switch at 1/2 is no less than 0.39 of the larger end; the quotient; 3 steps of the polynomial.
+  // the switch at 1/2 is no less than 0.39 of the larger end; the quotient; 3 steps of the
+  // polynomial.
   constexpr double ROUNDINGS = 3 / 0.39 + 4;
   constexpr double SERIES = 3e-9;
   double worst32 = 0.0;
