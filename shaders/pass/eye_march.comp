@@ -73,6 +73,11 @@ const float MAX_STEPS = 60000.0f;  // the driver ends loops silently at 65535
 const float LEAST_STEP = 2.4e-7f;  // 2^-22
 const bool AIR_SEEN = AIR_ENABLED || FOG_ENABLED;
 
+// Copies, see fields.glsl.
+vec4 fieldAlbedo[4] = volume.albedo;
+vec4 fieldMeanAlbedo = volume.meanAlbedo;
+float notPeak = TRANSPORT ? volume.texelOrigin.w : 1.0f;  // share of extinction, see VolumeUniforms
+
 // The ray, affine in the distance s (m) from the point nearest the box's middle.
 struct March {
   vec3 box;  // position in the unit box, and per m
@@ -108,17 +113,17 @@ vec3 meanLight(vec3 near, vec3 far, vec3 d) {
 End endAt(March m, float s, float eyeDepth) {
   End end;
   vec2 light = textureLod(lightBuffer, m.light + s * m.lightStep, 0.0f).xy;
-  float keep = TRANSPORT ? volume.texelOrigin.w : 1.0f;
+  float keep = notPeak;
   vec3 box = m.box + s * m.boxStep;
   for (int i = 0; i < int(FIELD_COUNT); ++i) {
     vec3 ln;
     if (TRANSPORT) {
-      float turned = (light.x + eyeDepth) * volume.meanAlbedo[i];
+      float turned = (light.x + eyeDepth) * fieldMeanAlbedo[i];
       ln = logFieldSource(uint(i), depthCoordinate(turned), m.angle, box) - light.x * keep;
     } else if (FORWARD_SCATTERING) {
       // phi was accumulated with the mean albedo; each colour scales it by its own.
-      vec3 back = light.y * volume.albedo[i].xyz / max(volume.meanAlbedo[i], 1.0e-6f);
-      float turned = light.x * volume.meanAlbedo[i];
+      vec3 back = light.y * fieldAlbedo[i].xyz / max(fieldMeanAlbedo[i], 1.0e-6f);
+      float turned = light.x * fieldMeanAlbedo[i];
       ln = logFieldSource(uint(i), depthCoordinate(turned), m.angle, box) +
            min(back - light.x, 0.0f);
     } else if (variesInside(uint(i))) {
@@ -197,7 +202,7 @@ void main() {
       }
     }
     AirNodes nodes = airNodes(direction, span.begin, span.end);
-    float keep = TRANSPORT ? volume.texelOrigin.w : 1.0f;
+    float keep = notPeak;
     float s = span.begin - nearest;
     float last = span.end - nearest;
     float longest = TRANSPORT ? min(volume.middle.w, gridStep(m.boxStep)) : volume.middle.w;
@@ -209,6 +214,8 @@ void main() {
     float eyeDepth = 0.0f;
     float through = 1.0f;
     vec3 sum = vec3(0.0f);
+    // Of the light's own scattering: one colour where all are alike, times what no stretch changes.
+    vec3 lit = vec3(0.0f);
     End end;
     vec3 ends[4];
     if (LIGHT_ENABLED) {
@@ -243,7 +250,7 @@ void main() {
         for (int i = 0; i < int(FIELD_COUNT); ++i) {
           vec3 farEnd = cutExp(far.field[i]);
           vec3 d = end.field[i] - far.field[i];
-          source += volume.albedo[i].xyz * meanLight(ends[i], farEnd, d) *
+          source += fieldAlbedo[i].xyz * meanLight(ends[i], farEnd, d) *
                     (extinction[i] * stretch);
           ends[i] = farEnd;
         }
@@ -251,7 +258,13 @@ void main() {
           source += gridSource(m.box + middle * m.boxStep, shape, zonal) * (through - passed);
         }
         end = far;
-        sum += source * air.light * air.transmittance;
+        if (AIR_SEEN) {
+          sum += source * air.light * air.transmittance;
+        } else if (GREY && !TRANSPORT) {
+          lit.x += source.x;
+        } else {
+          lit += source;
+        }
       }
       if (AMBIENT) {
         sum += ambientAt(m.box + middle * m.boxStep) * air.transmittance * (through - passed);
@@ -270,6 +283,10 @@ void main() {
       s = next;
       first += 1.0f;
       guard += 1u;
+    }
+    if (!AIR_SEEN) {
+      lit = GREY && !TRANSPORT ? lit.xxx : lit;
+      sum += lit * frame.lights[0].irradiance.xyz;
     }
     state = vec4(sum, exp(-min(eyeDepth * keep, EXP_CUT)));
   }

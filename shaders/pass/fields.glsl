@@ -8,6 +8,11 @@ float cleanDensity(float x) {
 // Bit i: field i is kept as bricks, its sampler being their atlas (src/frame/bricks.hpp).
 layout(constant_id = 11) const uint BRICK_FIELDS = 0u;
 
+// Copies: lavapipe loads what stands in a buffer anew in every round of a loop.
+vec3 fieldVoxels = volume.voxels.xyz;
+vec4 fieldScale = volume.extinctionScale;
+vec4 fieldAtlas[4] = volume.atlas;
+
 // A position in the unit box: the slots of its brick, one per field, and where it lies in them.
 struct BrickPlace {
   vec4 slots;
@@ -15,8 +20,8 @@ struct BrickPlace {
 };
 
 BrickPlace brickPlace(vec3 box) {
-  vec3 most = volume.voxels.xyz - 1.0f;
-  vec3 voxel = clamp(box * volume.voxels.xyz - 0.5f, vec3(0.0f), most);
+  vec3 most = fieldVoxels - 1.0f;
+  vec3 voxel = clamp(box * fieldVoxels - 0.5f, vec3(0.0f), most);
   vec3 brick = floor(voxel * 0.125f);
   return BrickPlace(texelFetch(pages, ivec3(brick), 0), voxel - 8.0f * brick + 0.5f);
 }
@@ -41,26 +46,26 @@ vec4 extinctionInside(vec3 box) {
     at = brickPlace(box);
   }
   if ((BRICK_FIELDS & 1u) != 0u) {
-    d.x = slotValue(field0, at.slots.x, at.local, volume.atlas[0].xyz);
+    d.x = slotValue(field0, at.slots.x, at.local, fieldAtlas[0].xyz);
   } else {
     d.x = cleanDensity(textureLod(field0, box, 0.0f).x);
   }
   if ((BRICK_FIELDS & 2u) != 0u) {
-    d.y = slotValue(field1, at.slots.y, at.local, volume.atlas[1].xyz);
+    d.y = slotValue(field1, at.slots.y, at.local, fieldAtlas[1].xyz);
   } else if (FIELD_COUNT > 1u) {
     d.y = cleanDensity(textureLod(field1, box, 0.0f).x);
   }
   if ((BRICK_FIELDS & 4u) != 0u) {
-    d.z = slotValue(field2, at.slots.z, at.local, volume.atlas[2].xyz);
+    d.z = slotValue(field2, at.slots.z, at.local, fieldAtlas[2].xyz);
   } else if (FIELD_COUNT > 2u) {
     d.z = cleanDensity(textureLod(field2, box, 0.0f).x);
   }
   if ((BRICK_FIELDS & 8u) != 0u) {
-    d.w = slotValue(field3, at.slots.w, at.local, volume.atlas[3].xyz);
+    d.w = slotValue(field3, at.slots.w, at.local, fieldAtlas[3].xyz);
   } else if (FIELD_COUNT > 3u) {
     d.w = cleanDensity(textureLod(field3, box, 0.0f).x);
   }
-  return d * volume.extinctionScale;
+  return d * fieldScale;
 }
 
 // The same anywhere; 0 outside.

@@ -6,11 +6,11 @@ layout(constant_id = 12) const bool LEAPS = false;
 
 // Whole steps of `dt` (m) from a position in the unit box, all of whose samples are 0.
 float emptySteps(vec3 box, vec3 boxStep, float dt) {
-  vec3 voxel = clamp(box * volume.voxels.xyz - 0.5f, vec3(0.0f), volume.voxels.xyz - 1.0f);
+  vec3 voxel = clamp(box * fieldVoxels - 0.5f, vec3(0.0f), fieldVoxels - 1.0f);
   vec3 brick = floor(voxel * 0.125f);
   float away = floor(texelFetch(leaps, ivec3(brick), 0).x * 255.0f + 0.5f);
   // To the faces of the cube of empty bricks around this one.
-  vec3 rate = boxStep * volume.voxels.xyz;
+  vec3 rate = boxStep * fieldVoxels;
   vec3 low = voxel - 8.0f * (brick + 1.0f - away);
   vec3 high = 8.0f * (brick + away) - voxel;
   vec3 room = mix(low, high, greaterThan(rate, vec3(0.0f))) / max(abs(rate), vec3(1.0e-12f));

@@ -40,19 +40,27 @@ vec3 fieldSource(uint field, float depth, float angle, vec3 box) {
 #define PAIR_SHAPE volume.pairShape
 #include "pair_shape.glsl"
 
+// Copies, see fields.glsl.
+vec4 gridScale_ = volume.gridScale;
+vec3 gridOffset_ = volume.gridOffset.xyz;
+vec4 gridEnd_ = volume.gridEnd;
+vec3 ambientScale_ = volume.ambientScale.xyz;
+vec3 ambientOffset_ = volume.ambientOffset.xyz;
+vec4 ambientEnd_ = volume.ambientEnd;
+
 // Where the light's grid holds a position in the unit box: in its image's first half source over
 // pairShape (1/sr per unit irradiance) and extinction without the peak (1/m), in the second the
 // source that goes with no shape; of a layer in parts, see gridZonal.
 vec3 gridPlace(vec3 box) {
-  vec3 cell = box * volume.gridScale.xyz + volume.gridOffset.xyz;
-  return clamp(cell, vec3(0.5f), volume.gridEnd.xyz) * (volume.gridEnd.w * vec3(1.0f, 1.0f, 0.5f));
+  vec3 cell = box * gridScale_.xyz + gridOffset_;
+  return clamp(cell, vec3(0.5f), gridEnd_.xyz) * (gridEnd_.w * vec3(1.0f, 1.0f, 0.5f));
 }
 
 vec3 gridSource(vec3 box, float shape, vec4 zonal) {
   vec3 place = gridPlace(box);
   vec3 few = shape * textureLod(viewSource, place, 0.0f).xyz;
   vec4 many = textureLod(viewSource, place + vec3(0.0f, 0.0f, 0.5f), 0.0f);
-  return volume.gridScale.w > 0.0f ? max(few + dot(many, zonal), vec3(0.0f)) : few + many.xyz;
+  return gridScale_.w > 0.0f ? max(few + dot(many, zonal), vec3(0.0f)) : few + many.xyz;
 }
 
 // Harmonics around a layer's normal of light that travels against a ray, as gridSource takes them.
@@ -72,7 +80,7 @@ float gridStep(vec3 boxStep) {
 
 // Light of sky and ground that is scattered towards the eye, as radiance.
 vec3 ambientAt(vec3 box) {
-  vec3 cell = box * volume.ambientScale.xyz + volume.ambientOffset.xyz;
-  cell = clamp(cell, vec3(0.5f), volume.ambientEnd.xyz) * volume.ambientEnd.w;
+  vec3 cell = box * ambientScale_ + ambientOffset_;
+  cell = clamp(cell, vec3(0.5f), ambientEnd_.xyz) * ambientEnd_.w;
   return textureLod(viewAmbient, cell, 0.0f).xyz;
 }
