@@ -71,13 +71,36 @@ vec4 middleOf(vec4 a, vec4 b, vec4 c, vec4 d) {
   return (9.0f * (b + c) - (a + d)) * 0.0625f;
 }
 
-// Whether a second pixel's ray meets the box where those around have seen nothing at all: that
-// promises nothing for what is narrower than they are apart.
+// Position per m along a pixel's ray, in voxels.
+vec3 voxelsAlong(vec2 pixel) {
+  return (volume.boxFromEye * vec4(pixelDirection(frame, pixel), 0.0f)).xyz * volume.voxels.xyz;
+}
+
+// Whether one of the rays of fourth pixels around goes through whatever voxel this ray meets, t m
+// away: a voxel's density reaches `reach` voxels to both sides.
+bool meetsVoxels(vec2 pixel, vec3 along, float t, vec3 reach) {
+  vec3 right = t * (voxelsAlong(pixel + vec2(2.0f, 0.0f)) - along);
+  vec3 up = t * (voxelsAlong(pixel + vec2(0.0f, 2.0f)) - along);
+  Span sum = rayBox(right + up, along, -reach, reach);
+  Span difference = rayBox(right - up, along, -reach, reach);
+  return sum.end > sum.begin && difference.end > difference.begin;
+}
+
+// Whether a second pixel's ray may meet something where those around have seen nothing at all: they
+// promise nothing for what is narrower than they are apart.
 bool blind(uvec2 second, Ray between, Ray error) {
-  vec3 direction = pixelDirection(frame, vec2(second * 2u));
-  vec3 along = (volume.boxFromEye * vec4(direction, 0.0f)).xyz;
-  Span span = rayBox(volume.boxFromEye[3].xyz, along, vec3(0.0f), vec3(1.0f));
-  return between.state.w == 1.0f && error.state.w == 0.0f && span.end > span.begin;
+  vec2 pixel = vec2(second * 2u);
+  vec3 along = voxelsAlong(pixel);
+  vec3 origin = volume.boxFromEye[3].xyz * volume.voxels.xyz;
+  Span span = rayBox(origin, along, vec3(0.0f), volume.voxels.xyz);
+  // Voxels at the box's faces reach half a voxel to one side, those between two of them to both.
+  vec3 first = origin + span.begin * along;
+  vec3 last = origin + span.end * along;
+  vec3 nearest = min(min(first, last), volume.voxels.xyz - max(first, last));
+  vec3 reach = mix(vec3(0.75f), vec3(1.0f), greaterThan(nearest, vec3(1.5f)));
+  reach = mix(reach, vec3(0.5f), lessThan(volume.voxels.xyz, vec3(1.5f)));
+  return between.state.w == 1.0f && error.state.w == 0.0f && span.end > span.begin &&
+         !meetsVoxels(pixel, along, span.end, reach);
 }
 
 // Where the ray ends inside the box and where it enters it, m; 0 if it misses.

@@ -226,18 +226,34 @@ TEST(HalfResolution, LeavesNoHaloAtOpaqueEdges) {
   }
 }
 
-// Three pixels high, less than rays of every fourth one are apart: nothing of one voxel reaches
-// beyond the box.
-TEST(HalfResolution, SeesALayerWhereverItLiesBetweenRays) {
-  HalfScene scene(120, 90);
-  const WlkVolume layer =
-      scene.addVolume(scene.addHenyeyGreenstein(0.6f), {8, 1, 1},
-                      boxTransform({-1000, -60, -4400}, {2000, 150, 240}), 0.01f);
-  scene.upload(layer, {8, 1, 1}, std::vector<float>(8, 1.0f));
-  for (int i = 0; i < 8; ++i) {
-    scene.setCamera({0, 26.0 * i, 0}, 0, 0);  // 208 m, 4 pixels in all
-    const Image full = scene.full();
-    EXPECT_LT(largestDifference(scene.half(), full), LARGEST) << i;
+// One row of voxels along x, in a box of so many rows; `edge`: of voxels, along y and z.
+struct LoneRow {
+  const char* name;
+  uint32_t rows;
+  uint32_t row;
+  double edge;
+};
+
+// Rays of every fourth pixel are 208 m apart. What a row shows is 150 m high where it is the whole
+// box, 1.5 edges at the box's face and 2 edges between others.
+TEST(HalfResolution, SeesARowOfVoxelsWhereverItLiesBetweenRays) {
+  for (const LoneRow& lone :
+       {LoneRow{"alone", 1, 0, 150}, LoneRow{"at the lower face", 4, 0, 120},
+        LoneRow{"at the upper face", 4, 3, 120}, LoneRow{"between others", 5, 2, 120}}) {
+    HalfScene scene(120, 90);
+    const std::array<uint32_t, 3> size{8, lone.rows, 1};
+    const WlkVolume volume = scene.addVolume(
+        scene.addHenyeyGreenstein(0.6f), size,
+        boxTransform({-1000, -60, -4400}, {2000, lone.rows * lone.edge, 240}), 0.01f);
+    std::vector<float> values(size_t{8} * lone.rows, 0.0f);
+    std::fill_n(values.begin() + 8 * lone.row, 8, 1.0f);
+    scene.upload(volume, size, values);
+    for (int i = 0; i < 16; ++i) {
+      scene.setCamera({0, 13.0 * i, 0}, 0, 0);  // 208 m in all
+      const Image full = scene.full();
+      EXPECT_GT(full.mean(), 0.0) << lone.name;
+      EXPECT_LT(largestDifference(scene.half(), full), LARGEST) << lone.name << " " << i;
+    }
   }
 }
 
