@@ -226,12 +226,13 @@ void main() {
     }
     // The test stands in front: lavapipe goes on with lanes whose loop has ended, so that what a
     // test at the end leaves is computed once more, from arrays that are already a stretch further.
+    LeapRay leap = leapRay(m.boxStep, dt);
     uint guard = 0u;
     while (s < last && eyeDepth * keep < RAY_ENDS && guard < 65000u) {
       if (LEAPS) {
         // The stretch takes up those after it in which there is nothing: no sample is lost.
         float here = 0.5f * (s + min(first * dt, last));
-        first += emptySteps(m.box + here * m.boxStep, m.boxStep, dt);
+        first += emptySteps(m.box + here * m.boxStep, leap);
       }
       float next = min(first * dt, last);
       float stretch = max(next - s, 0.0f);

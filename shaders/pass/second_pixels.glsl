@@ -7,6 +7,9 @@ layout(set = 0, binding = 11, std430) buffer SecondPixels { uint seconds[]; };
 // The same buffer: four words at once cost the driver hardly more than one.
 layout(set = 0, binding = 11, std430) buffer SecondRays { vec4 secondRays[]; };
 
+// Words of a second pixel.
+const uint SECOND_WORDS = DEPTH_ENABLED || DISTANCE ? SECOND_SIZE : SECOND_SIZE / 2u;
+
 uvec2 firstSecond() {
   return uvec2(volume.rect.xy) / 2u;
 }
@@ -29,11 +32,11 @@ uvec2 secondsOfView() {
 
 // In secondRays.
 uint secondAddress(uvec2 second) {
-  return (LIST_HEAD + SECOND_SIZE * (second.y * secondsOfView().x + second.x)) / 4u;
+  return (LIST_HEAD + SECOND_WORDS * (second.y * secondsOfView().x + second.x)) / 4u;
 }
 
 uint listAddress() {
-  return LIST_HEAD + SECOND_SIZE * secondsOfView().x * secondsOfView().y;
+  return LIST_HEAD + SECOND_WORDS * secondsOfView().x * secondsOfView().y;
 }
 
 void storeSecond(uvec2 second, vec4 state, float end, vec2 hidden) {
