@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/front_report.hpp"
+#include "bench/volume_points.hpp"
 #include "bench/volume_scene.hpp"
 
 namespace bench {
@@ -20,22 +21,7 @@ struct VolumeOptions {
   bool validation = false;
 };
 
-// Rows of one case, every method timed in turn with the others.
-struct VolumeRow {
-  std::string method;  // welkin, slicer, bare, cpu
-  uint32_t slices;
-  uint32_t lightSize;
-  double time_ms;
-  double deviation_ms;
-  double cpu_ms;
-  double error;  // relative root mean square; negative: none
-  double bias;
-  uint64_t samples;  // of the eye, in the box
-  double eye_ms;     // of the eye pass alone, where known
-  double light_ms;
-  uint64_t invocations;
-  uint64_t commands;  // dispatches or draws
-};
+// One case, every method timed in turn with the others.
 struct VolumeStudy {
   VolumeCase one;
   double occupied;
@@ -43,23 +29,6 @@ struct VolumeStudy {
   std::vector<VolumeRow> rows;
 };
 std::vector<VolumeStudy> studyVolumes(const VolumeOptions& options, Ordered& device);
-
-// Least time at an error by straight lines between the points of the method's front, in logarithms;
-// negative where the front does not reach.
-double timeAtError(const std::vector<VolumeRow>& rows, const std::string& method, double error,
-                   double VolumeRow::*time);
-// Errors that both methods reach: the ends of the common range and its middle, in logarithms.
-std::vector<double> commonErrors(const std::vector<VolumeRow>& rows);
-
-// value = offset + slope x by least squares, the part of the variance it explains, and the slope of
-// the logarithms.
-struct Fit {
-  double offset;
-  double slope;
-  double explained;
-  double exponent;
-};
-Fit fitLine(const std::vector<double>& x, const std::vector<double>& y);
 
 struct Scaling {
   std::string what;
