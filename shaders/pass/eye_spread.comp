@@ -204,14 +204,12 @@ void settle(uvec2 at, Ray between, Ray error, Ray most, inout uint count, inout 
   }
 }
 
-// Of four rays along a row: the second, what lies between it and the third, the larger of both, and
-// the largest radiance of all.
+// Of four rays along a row: the second, what lies between it and the third, and the larger of both.
 struct Row {
   Ray second;
   Ray between;
   Ray error;
   Ray most;
-  float brightest;
 };
 
 // Of two cells beside each other.
@@ -220,17 +218,12 @@ struct Rows {
   Row right;
 };
 
-float largestOf(vec3 v) {
-  return max(max(v.x, v.y), v.z);
-}
-
 Row rowOf(Ray a, Ray b, Ray c, Ray d) {
   Row row;
   row.second = b;
   row.between = cubic(a, b, c, d);
   row.error = cubicError(a, b, c, d);
   row.most = larger(b, c);
-  row.brightest = largestOf(max(row.most.state, max(a.state, d.state)).xyz);
   return row;
 }
 
@@ -249,9 +242,7 @@ Rows rowsAt(ivec2 at) {
 // 2 x 2 of them, the first of which has a ray of its own, from the four rows around.
 void settleCell(uvec2 corner, Row above, Row here, Row next, Row last) {
   Ray most = larger(here.most, next.most);
-  // Where the four nearest see nothing, others that do cannot tell where it ends.
-  float brightest = max(max(above.brightest, here.brightest), max(next.brightest, last.brightest));
-  most.state = vec4(vec3(largestOf(most.state.xyz) > 0.0f ? brightest : 0.0f), 1.0f);
+  most.state = vec4(vec3(max(max(most.state.x, most.state.y), most.state.z)), 1.0f);
   Ray below = cubic(above.second, here.second, next.second, last.second);
   Ray belowError = cubicError(above.second, here.second, next.second, last.second);
   Ray across = cubic(above.between, here.between, next.between, last.between);
