@@ -49,8 +49,8 @@ const uint SPREAD_TO_PIXELS = 1u;
 // The buffer of every second pixel and of the list. In uints: for the list of second pixels and for
 // that of pixels the dispatch's groups along three axes and the list's length; then, 8 for each
 // second pixel of the view, row by row with two more than half of its pixels in each, radiance and
-// transmittance, where the ray ends (m) and what the volumes' distance needs; then the list that is
-// in use, x + 65536 y.
+// transmittance, where the ray ends (m) and what the volumes' distance needs (without depth and
+// distance only the first 4); then the list that is in use, x + 65536 y.
 const uint LIST_SIZE = 4u;
 const uint LIST_HEAD = 8u;
 const uint SECOND_SIZE = 8u;

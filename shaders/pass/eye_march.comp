@@ -224,9 +224,9 @@ void main() {
         ends[i] = cutExp(end.field[i]);
       }
     }
+    LeapRay leap = leapRay(m.boxStep, dt);
     // The test stands in front: lavapipe goes on with lanes whose loop has ended, so that what a
     // test at the end leaves is computed once more, from arrays that are already a stretch further.
-    LeapRay leap = leapRay(m.boxStep, dt);
     uint guard = 0u;
     while (s < last && eyeDepth * keep < RAY_ENDS && guard < 65000u) {
       if (LEAPS) {

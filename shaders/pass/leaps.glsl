@@ -6,7 +6,7 @@ layout(constant_id = 12) const bool LEAPS = false;
 
 // What emptySteps() needs of a ray, before its loop.
 struct LeapRay {
-  vec3 ahead;    // 1 along axes on which the box's position rises, else 0
+  vec3 ahead;     // 1 along axes on which the box's position rises, else 0
   vec3 perVoxel;  // steps
 };
 

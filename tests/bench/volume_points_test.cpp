@@ -9,7 +9,7 @@
 namespace bench {
 namespace {
 
-constexpr double ROUNDING = 1e-12;
+constexpr double ROUNDING = 1e-12;  // some logarithms and sums of doubles, each 1e-16 off
 
 VolumeRow point(const char* method, double time_ms, double error) {
   VolumeRow row{};
