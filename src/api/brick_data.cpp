@@ -19,14 +19,14 @@ float keptVoxel(const unsigned char* p, uint32_t format) {
 }
 
 // Adds the voxels of a brick that lie inside the volume; returns its faces.
-uint8_t readBrick(const Edges& size, const Edges& brick, const unsigned char* data, uint32_t format,
-                  VoxelSums& sums) {
+uint64_t readBrick(const Edges& size, const Edges& brick, const unsigned char* data,
+                   uint32_t format, VoxelSums& sums) {
   const uint64_t voxel = bytesPerVoxel(format);
   Edges end{};
   for (size_t i = 0; i < 3; ++i) {
     end[i] = std::min(BRICK_EDGE, size[i] - BRICK_EDGE * brick[i]);
   }
-  uint8_t faces = 0;
+  uint64_t faces = 0;
   for (uint32_t z = 0; z < end[2]; ++z) {
     for (uint32_t y = 0; y < end[1]; ++y) {
       const unsigned char* row = data + size_t{z * BRICK_EDGE + y} * BRICK_EDGE * voxel;

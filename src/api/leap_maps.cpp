@@ -15,10 +15,11 @@ constexpr double LEAPS_NO_MORE = 0.8;
 
 // 1 where Welkin cannot know.
 double occupancy(const VolumeState& volume, const BrickGrid& grid) {
-  BrickFaces distances(volume.faces[0].get_allocator().resource());
-  distances.resize(grid.total());
-  brickDistances(grid, volume.faces, distances);
-  const auto reached = std::count(distances.begin(), distances.end(), uint8_t{0});
+  std::pmr::vector<BrickLeap> leaps(volume.faces[0].get_allocator().resource());
+  leaps.resize(grid.total());
+  findLeaps(grid, volume.faces, leaps);
+  const auto reached = std::count_if(leaps.begin(), leaps.end(),
+                                     [](const BrickLeap& leap) { return leap.distance == 0; });
   return static_cast<double>(reached) / static_cast<double>(grid.total());
 }
 
@@ -53,13 +54,15 @@ void renewLeaps(WlkContext_T& c, uint64_t volume, const VolumeState& state) {
     return pending.volumeId == volume && pending.field == LEAPS;
   });
   if (state.leaps && !waits) {
-    c.pending.push_back(makePending(*c.device, volume, LEAPS, brickGrid(state.size).count, 1));
+    c.pending.push_back(
+        makePending(*c.device, volume, LEAPS, brickGrid(state.size).count, sizeof(BrickLeap)));
   }
 }
 
 void fillLeaps(VolumeState& volume, const vk::Buffer& staging) {
-  brickDistances(brickGrid(volume.size), volume.faces, volume.distances);
-  std::memcpy(staging.data(), volume.distances.data(), volume.distances.size());
+  findLeaps(brickGrid(volume.size), volume.faces, volume.leapTexels);
+  std::memcpy(staging.data(), volume.leapTexels.data(),
+              volume.leapTexels.size() * sizeof(BrickLeap));
 }
 
 void prepareLeaps(WlkContext_T& c) {
@@ -74,12 +77,12 @@ void prepareLeaps(WlkContext_T& c) {
     if (leap && !volume->leaps) {
       vk::ImageInfo info;
       info.type = VK_IMAGE_TYPE_3D;
-      info.format = VK_FORMAT_R8_UNORM;
+      info.format = VK_FORMAT_R8G8_UNORM;
       info.extent = {grid.count[0], grid.count[1], grid.count[2]};
       info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
       vk::Image image(*c.device, info);
-      volume->distances.resize(grid.total());
-      c.pending.push_back(makePending(*c.device, id, LEAPS, grid.count, 1));
+      volume->leapTexels.resize(grid.total());
+      c.pending.push_back(makePending(*c.device, id, LEAPS, grid.count, sizeof(BrickLeap)));
       volume->leaps = std::move(image);
       c.invalidate();
     } else if (!leap && volume->leaps) {

@@ -125,6 +125,7 @@ uint64_t imageBytes(const vk::Image& image) {
   }
   const vk::ImageInfo& info = image.info();
   const uint64_t texel = info.format == VK_FORMAT_R8_UNORM              ? 1
+                         : info.format == VK_FORMAT_R8G8_UNORM          ? 2
                          : info.format == VK_FORMAT_R16_SFLOAT          ? 2
                          : info.format == VK_FORMAT_R32G32B32A32_SFLOAT ? 16
                                                                         : 4;
@@ -255,11 +256,12 @@ WlkResult wlkGetVolumeState(WlkContext context, WlkVolume volume, WlkVolumeState
     value.storedBricks = 0;
     value.leaps = (v.fieldKind() & VolumeState::LEAPING) != 0 ? 1 : 0;
     value.deviceMemory = imageBytes(v.pages) + imageBytes(v.leaps) + imageBytes(v.diameters);
-    value.hostMemory = v.pageTexels.capacity() * sizeof(float) + v.distances.capacity();
+    value.hostMemory =
+        v.pageTexels.capacity() * sizeof(float) + v.leapTexels.capacity() * sizeof(BrickLeap);
     for (uint32_t i = 0; i < v.fieldCount; ++i) {
       value.storedBricks += v.fields[i].slots;
       value.deviceMemory += imageBytes(v.fields[i].image);
-      value.hostMemory += v.faces[i].capacity();
+      value.hostMemory += v.faces[i].capacity() * sizeof(uint64_t);
     }
     value.pendingMemory = 0;
     for (const PendingUpload& pending : c.pending) {

@@ -7,18 +7,61 @@
 namespace welkin {
 namespace {
 
-// Bits of all m whose axes are among `axes`.
-constexpr std::array<uint8_t, 8> SUBSETS = [] {
-  std::array<uint8_t, 8> bits{};
-  for (uint32_t axes = 0; axes < 8; ++axes) {
-    for (uint32_t m = 0; m < 8; ++m) {
-      if ((m & ~axes) == 0) {
-        bits[axes] = static_cast<uint8_t>(bits[axes] | 1u << m);
-      }
-    }
+constexpr uint32_t HALF_EDGE = BRICK_EDGE / 2;
+
+// Bits of the places along each axis that `places` holds (bit i: place i).
+constexpr uint64_t bitsAt(const std::array<uint32_t, 3>& places) {
+  uint64_t bits = 0;
+  for (uint32_t bit = 0; bit < 64; ++bit) {
+    const bool in = (places[0] >> bit % 4 & 1u) != 0 && (places[1] >> bit / 4 % 4 & 1u) != 0 &&
+                    (places[2] >> bit / 16 & 1u) != 0;
+    bits |= uint64_t{in} << bit;
   }
   return bits;
+}
+
+constexpr uint32_t FIRST = 0b0001;
+constexpr uint32_t ANYWHERE = 0b1111;
+
+// Voxels that lie in the first layer along all axes of m: the brick before along those needs them.
+constexpr std::array<uint64_t, 8> LAYERS = [] {
+  std::array<uint64_t, 8> layers{};
+  for (uint32_t m = 0; m < 8; ++m) {
+    layers[m] = bitsAt({(m & 1u) != 0 ? FIRST : ANYWHERE, (m & 2u) != 0 ? FIRST : ANYWHERE,
+                        (m & 4u) != 0 ? FIRST : ANYWHERE});
+  }
+  return layers;
 }();
+
+// Halves along an axis that a voxel reaches: of its own brick, and the second of the one before.
+struct Reach {
+  uint32_t places;
+  uint32_t half;
+  uint32_t before;
+};
+constexpr std::array<Reach, 3> REACHES{{{0b0111, 0, 0}, {0b1100, 1, 0}, {FIRST, 1, 1}}};
+
+struct EighthReach {
+  uint64_t bits;
+  uint32_t before;  // axes
+  uint8_t eighth;   // its bit
+};
+constexpr std::array<EighthReach, 27> EIGHTHS = [] {
+  std::array<EighthReach, 27> list{};
+  for (uint32_t i = 0; i < list.size(); ++i) {
+    const Reach& x = REACHES[i % 3];
+    const Reach& y = REACHES[i / 3 % 3];
+    const Reach& z = REACHES[i / 9];
+    list[i] = {bitsAt({x.places, y.places, z.places}), x.before | y.before << 1 | z.before << 2,
+               static_cast<uint8_t>(1u << (x.half | y.half << 1 | z.half << 2))};
+  }
+  return list;
+}();
+
+uint32_t placeOf(uint32_t voxel) {
+  const uint32_t inHalf = voxel % HALF_EDGE;
+  return (voxel % BRICK_EDGE < HALF_EDGE ? 0u : 2u) + (inHalf == 0 ? 0u : 1u);
+}
 
 }  // namespace
 
@@ -30,12 +73,8 @@ BrickGrid brickGrid(const Edges& size) {
   return grid;
 }
 
-uint8_t facesOf(const Edges& voxel) {
-  uint32_t axes = 0;
-  for (uint32_t i = 0; i < 3; ++i) {
-    axes |= (voxel[i] % BRICK_EDGE == 0 ? 1u : 0u) << i;
-  }
-  return SUBSETS[axes];
+uint64_t facesOf(const Edges& voxel) {
+  return uint64_t{1} << (placeOf(voxel[0]) + 4 * placeOf(voxel[1]) + 16 * placeOf(voxel[2]));
 }
 
 bool hasBrickBefore(const Edges& brick, uint32_t axes) {
@@ -52,12 +91,12 @@ size_t brickBefore(const BrickGrid& grid, size_t index, uint32_t axes) {
          (axes >> 2 & 1u) * size_t{grid.count[0]} * grid.count[1];
 }
 
-uint64_t countOccupied(std::span<const uint8_t> faces) {
+uint64_t countOccupied(std::span<const uint64_t> faces) {
   return static_cast<uint64_t>(
-      std::count_if(faces.begin(), faces.end(), [](uint8_t bits) { return bits != 0; }));
+      std::count_if(faces.begin(), faces.end(), [](uint64_t bits) { return bits != 0; }));
 }
 
-std::pmr::vector<uint32_t> reachedBricks(const BrickGrid& grid, std::span<const uint8_t> faces,
+std::pmr::vector<uint32_t> reachedBricks(const BrickGrid& grid, std::span<const uint64_t> faces,
                                          std::span<const uint32_t> occupied,
                                          std::pmr::memory_resource* memory) {
   std::pmr::vector<uint32_t> reached(memory);
@@ -65,7 +104,7 @@ std::pmr::vector<uint32_t> reachedBricks(const BrickGrid& grid, std::span<const 
   for (const uint32_t index : occupied) {
     const Edges brick = grid.brickOf(index);
     for (uint32_t axes = 0; axes < 8; ++axes) {
-      if ((uint32_t{faces[index]} >> axes & 1u) != 0 && hasBrickBefore(brick, axes)) {
+      if ((faces[index] & LAYERS[axes]) != 0 && hasBrickBefore(brick, axes)) {
         reached.push_back(static_cast<uint32_t>(brickBefore(grid, index, axes)));
       }
     }
@@ -77,17 +116,19 @@ std::pmr::vector<uint32_t> reachedBricks(const BrickGrid& grid, std::span<const 
 
 namespace {
 
-// Marks what the field's voxels reach with 0.
-void markReached(const BrickGrid& grid, std::span<const uint8_t> faces,
-                 std::span<uint8_t> distances) {
+// Marks the eighths that the field's voxels reach.
+void markReached(const BrickGrid& grid, std::span<const uint64_t> faces,
+                 std::span<BrickLeap> leaps) {
   for (size_t index = 0; index < faces.size(); ++index) {
     if (faces[index] == 0) {
       continue;
     }
     const Edges brick = grid.brickOf(index);
-    for (uint32_t axes = 0; axes < 8; ++axes) {
-      if ((uint32_t{faces[index]} >> axes & 1u) != 0 && hasBrickBefore(brick, axes)) {
-        distances[brickBefore(grid, index, axes)] = 0;
+    for (const EighthReach& reach : EIGHTHS) {
+      if ((faces[index] & reach.bits) != 0 && hasBrickBefore(brick, reach.before)) {
+        BrickLeap& leap = leaps[brickBefore(grid, index, reach.before)];
+        leap.distance = 0;
+        leap.eighths = static_cast<uint8_t>(leap.eighths | reach.eighth);
       }
     }
   }
@@ -95,14 +136,14 @@ void markReached(const BrickGrid& grid, std::span<const uint8_t> faces,
 
 // One more than the least of the 13 neighbours that come before a brick in the order of `sign`.
 uint32_t fromNeighbours(const BrickGrid& grid, const Edges& brick, int sign,
-                        std::span<const uint8_t> distances) {
+                        std::span<const BrickLeap> leaps) {
   uint32_t least = 255;
   const auto look = [&](int dx, int dy, int dz) {
     const Edges at{brick[0] + static_cast<uint32_t>(sign * dx),
                    brick[1] + static_cast<uint32_t>(sign * dy),
                    brick[2] + static_cast<uint32_t>(sign * dz)};
     if (at[0] < grid.count[0] && at[1] < grid.count[1] && at[2] < grid.count[2]) {
-      least = std::min<uint32_t>(least, distances[grid.at(at)]);
+      least = std::min<uint32_t>(least, leaps[grid.at(at)].distance);
     }
   };
   for (int dy = -1; dy <= 1; ++dy) {
@@ -120,18 +161,19 @@ uint32_t fromNeighbours(const BrickGrid& grid, const Edges& brick, int sign,
 }  // namespace
 
 // Two sweeps over all neighbours give the chessboard distance exactly (Rosenfeld and Pfaltz 1968).
-void brickDistances(const BrickGrid& grid, std::span<const BrickFaces> fields,
-                    std::span<uint8_t> distances) {
-  std::fill(distances.begin(), distances.end(), uint8_t{255});
+void findLeaps(const BrickGrid& grid, std::span<const BrickFaces> fields,
+               std::span<BrickLeap> leaps) {
+  std::fill(leaps.begin(), leaps.end(), BrickLeap{255, 0});
   for (const BrickFaces& faces : fields) {
-    markReached(grid, faces, distances);
+    markReached(grid, faces, leaps);
   }
   for (const int sign : {1, -1}) {
-    for (size_t i = 0; i < distances.size(); ++i) {
-      const size_t index = sign > 0 ? i : distances.size() - 1 - i;
-      if (distances[index] > 1) {
-        distances[index] = static_cast<uint8_t>(std::min<uint32_t>(
-            distances[index], fromNeighbours(grid, grid.brickOf(index), sign, distances)));
+    for (size_t i = 0; i < leaps.size(); ++i) {
+      const size_t index = sign > 0 ? i : leaps.size() - 1 - i;
+      uint8_t& distance = leaps[index].distance;
+      if (distance > 1) {
+        distance = static_cast<uint8_t>(
+            std::min<uint32_t>(distance, fromNeighbours(grid, grid.brickOf(index), sign, leaps)));
       }
     }
   }

@@ -40,31 +40,39 @@ struct BrickGrid {
 
 BrickGrid brickGrid(const Edges& size);
 
-// Per brick 8 bits. Bit m: there is a value above 0 among its voxels that lie in the first layer
-// along every axis of m (1: x, 2: y, 4: z). Bit 0 speaks of all its voxels; the others of what the
-// bricks before it need.
-using BrickFaces = std::pmr::vector<uint8_t>;
+// Per brick 64 bits that tell where values above 0 lie among its own voxels. Along an axis there
+// are four places: the first voxel, which the brick before reaches as well, those up to the middle,
+// the middle one, which both halves reach, those behind. Bit x + 4 y + 16 z: of these places.
+using BrickFaces = std::pmr::vector<uint64_t>;
 
-// Bits of a voxel by its place in the volume.
-uint8_t facesOf(const Edges& voxel);
+// The bit of a voxel by its place in the volume.
+uint64_t facesOf(const Edges& voxel);
 
 // Index of the brick that lies one back along the axes of m; `brick` is not at that border.
 size_t brickBefore(const BrickGrid& grid, size_t index, uint32_t axes);
 bool hasBrickBefore(const Edges& brick, uint32_t axes);
 
 // Bricks with a voxel above 0 of their own.
-uint64_t countOccupied(std::span<const uint8_t> faces);
+uint64_t countOccupied(std::span<const uint64_t> faces);
 
 // Indices, rising, of the bricks in which a sample may be above 0: the occupied ones, and those
 // before them that touch an occupied voxel. Takes time with the occupied bricks given.
-std::pmr::vector<uint32_t> reachedBricks(const BrickGrid& grid, std::span<const uint8_t> faces,
+std::pmr::vector<uint32_t> reachedBricks(const BrickGrid& grid, std::span<const uint64_t> faces,
                                          std::span<const uint32_t> occupied,
                                          std::pmr::memory_resource* memory);
 
-// Per brick the distance, in bricks along the axis where it is longest and at most 255, to the
-// nearest one in which a sample of any field may be above 0. Fields without faces hold nothing.
-void brickDistances(const BrickGrid& grid, std::span<const BrickFaces> fields,
-                    std::span<uint8_t> distances);
+// How far a ray in a brick may go: the distance, in bricks along the axis where it is longest and
+// at most 255, to the nearest one in which a sample of any field may be above 0; and if that is the
+// brick itself, a bit for each of its eighths (1: the second half along x, 2: y, 4: z) in which one
+// may be. Texels of a volume's map.
+struct BrickLeap {
+  uint8_t distance;
+  uint8_t eighths;
+};
+
+// Fields without faces hold nothing.
+void findLeaps(const BrickGrid& grid, std::span<const BrickFaces> fields,
+               std::span<BrickLeap> leaps);
 
 // Slots along the axes of an atlas with room for `slots` of them and at most `most` along each:
 // as little room as there is. All 0 if none fits.

@@ -137,7 +137,7 @@ struct VolumeState {
   explicit VolumeState(std::pmr::memory_resource* memory)
       : faces{BrickFaces(memory), BrickFaces(memory), BrickFaces(memory), BrickFaces(memory)},
         pageTexels(memory),
-        distances(memory) {}
+        leapTexels(memory) {}
   Edges size{};
   uint32_t fieldCount = 0;
   std::array<FieldState, WLK_MAX_FIELDS> fields;
@@ -154,9 +154,9 @@ struct VolumeState {
   std::pmr::vector<float> pageTexels;
   // How far each brick is from anything, where wlkPrepare found the volume empty enough.
   vk::Image leaps;
-  BrickFaces distances;             // room for them
-  uint64_t uploads = 0;             // to any field
-  uint64_t leapsAt = ~uint64_t{0};  // the same when wlkPrepare looked last
+  std::pmr::vector<BrickLeap> leapTexels;  // room for them
+  uint64_t uploads = 0;                    // to any field
+  uint64_t leapsAt = ~uint64_t{0};         // the same when wlkPrepare looked last
 
   // Diameters of one field's droplets per voxel, in nodes; empty without.
   vk::Image diameters;

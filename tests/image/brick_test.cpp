@@ -247,6 +247,43 @@ TEST(Leaps, LeaveThePictureAsItIs) {
   }
 }
 
+// Along a beam of voxels under a sun above, in a layer that is a thousand times as wide as high, a
+// ray takes as many steps as it may, nearly all in bricks that hold something: leaps take rounds
+// of their own, and a driver that counts all of them must not end the ray before its time.
+TEST(Leaps, LetTheLongestRaysComeToTheirEnd) {
+  constexpr std::array<uint32_t, 3> LAYER{64, 64, 64};
+  std::vector<float> beam(size_t{64} * 64 * 64);
+  for (size_t n = 0; n < beam.size(); ++n) {
+    const size_t x = n % 64;
+    const size_t y = n / 64 % 64;
+    beam[n] = x >= 20 && x < 44 && y >= 26 && y < 38 ? 1.0f : 0.0f;
+  }
+  SceneOptions o = options(WLK_QUALITY_LOW);
+  o.width = 16;
+  o.height = 16;
+  HeadlessScene scene(o);
+  scene.setSun(90, 0);
+  auto camera = make<WlkCamera>();
+  camera.position[1] = 900;
+  camera.clipFromView[0] = 30000;  // no ray leaves the beam
+  camera.clipFromView[5] = -30000;
+  check(wlkSetCamera(scene.context, scene.view, &camera));
+  const WlkVolume volume =
+      scene.addVolume(scene.addHenyeyGreenstein(0.0f), LAYER,
+                      boxTransform({-30000, 885, -60000}, {60000, 30, 60000}), 1e-5f);
+  scene.upload(volume, LAYER, beam, 0);
+  scene.setQuality(WLK_QUALITY_LOW, WLK_QUALITY_FLAG_NO_SKIP);
+  const Image all = scene.render();
+  scene.setQuality(WLK_QUALITY_LOW);
+  const Image leaping = scene.render();
+  auto state = make<WlkVolumeState>();
+  check(wlkGetVolumeState(scene.context, volume, &state));
+  EXPECT_EQ(state.leaps, 1u);
+  EXPECT_GT(all.mean(), 0.0);
+  EXPECT_LE(largestDifference(leaping, all), 0.1 * BOUND);
+  std::printf("long rays: leaps change %.1e of the mean\n", largestDifference(leaping, all));
+}
+
 TEST(Leaps, AreLeftOutWhereLittleIsEmpty) {
   BrickScene scene(options(WLK_QUALITY_LOW), 1);
   std::vector<float> values(balls(0).size(), 0.5f);

@@ -68,33 +68,45 @@ TEST(Bricks, FillTheirAtlasAndPagesAreExact) {
   EXPECT_EQ(atlasShape(1000, 10), (Edges{10, 10, 10}));
 }
 
-TEST(Bricks, KnowHowFarTheyAreFromTheNearestThatIsReached) {
+// Any voxel of a filter's, by which lower voxels an eighth has: 4 of them along each axis.
+bool reaches(const std::vector<Edges>& voxels, const Edges& first, uint32_t edge) {
+  return std::any_of(voxels.begin(), voxels.end(), [&](const Edges& v) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      if (v[axis] < first[axis] || v[axis] > first[axis] + edge) {
+        return false;
+      }
+    }
+    return true;
+  });
+}
+
+TEST(Bricks, KnowHowFarTheyAreFromTheNearestThatIsReachedAndWhichEighthsAre) {
   const BrickGrid grid = brickGrid({100, 37, 70});
   std::mt19937 random(7);
-  for (int round = 0; round < 20; ++round) {
+  for (int round = 0; round < 30; ++round) {
     std::vector<BrickFaces> fields(2, BrickFaces(grid.total()));
-    std::vector<uint32_t> occupied;
+    std::vector<Edges> voxels;
     for (int i = 0; i < 3 * (round % 3); ++i) {
-      const Edges v{static_cast<uint32_t>(random() % 100), static_cast<uint32_t>(random() % 37),
-                    static_cast<uint32_t>(random() % 70)};
+      voxels.push_back({static_cast<uint32_t>(random() % 100), static_cast<uint32_t>(random() % 37),
+                        static_cast<uint32_t>(random() % 70)});
+      // At multiples of 4 what lies before is reached as well.
+      for (uint32_t& place : voxels.back()) {
+        place -= static_cast<uint32_t>(random() % 2) * (place % 4);
+      }
+      const Edges& v = voxels.back();
       const size_t index = grid.at({v[0] / 8, v[1] / 8, v[2] / 8});
       fields[static_cast<size_t>(i % 2)][index] |= facesOf(v);
     }
     std::vector<Edges> reached;
-    for (const BrickFaces& faces : fields) {
-      std::vector<uint32_t> list;
-      for (uint32_t i = 0; i < faces.size(); ++i) {
-        if (faces[i] != 0) {
-          list.push_back(i);
-        }
-      }
-      for (const uint32_t i : reachedBricks(grid, faces, list, std::pmr::get_default_resource())) {
-        reached.push_back(grid.brickOf(i));
+    for (uint32_t i = 0; i < grid.total(); ++i) {
+      const Edges b = grid.brickOf(i);
+      if (reaches(voxels, {8 * b[0], 8 * b[1], 8 * b[2]}, 8)) {
+        reached.push_back(b);
       }
     }
-    std::vector<uint8_t> distances(grid.total());
-    brickDistances(grid, fields, distances);
-    for (size_t i = 0; i < distances.size(); ++i) {
+    std::vector<BrickLeap> leaps(grid.total());
+    findLeaps(grid, fields, leaps);
+    for (size_t i = 0; i < leaps.size(); ++i) {
       const Edges b = grid.brickOf(i);
       int expected = 255;
       for (const Edges& r : reached) {
@@ -104,7 +116,13 @@ TEST(Bricks, KnowHowFarTheyAreFromTheNearestThatIsReached) {
         }
         expected = std::min(expected, apart);
       }
-      ASSERT_EQ(distances[i], expected) << "round " << round << " brick " << i;
+      ASSERT_EQ(leaps[i].distance, expected) << "round " << round << " brick " << i;
+      for (uint32_t eighth = 0; eighth < 8; ++eighth) {
+        const Edges first{8 * b[0] + 4 * (eighth & 1), 8 * b[1] + 4 * (eighth >> 1 & 1),
+                          8 * b[2] + 4 * (eighth >> 2)};
+        ASSERT_EQ((leaps[i].eighths >> eighth & 1) != 0, reaches(voxels, first, 4))
+            << "round " << round << " brick " << i << " eighth " << eighth;
+      }
     }
   }
 }
