@@ -68,9 +68,9 @@ const bool LISTED = RAYS == RAYS_OF_LIST;
 const float RAY_ENDS = 14.0f;      // optical depth at which a ray ends: 1e-6 of its light is left
 const float LONGEST_RAY = 1.0e7f;  // m inside one volume
 // lavapipe ends a shader silently after 65535 rounds of all its loops together. A step takes one of
-// the march and one to see whether it may leap; leaps of eight rays that take turns across volumes
+// the march and two to see that it may not leap; leaps of eight rays that take turns across volumes
 // 2048 voxels wide take 12000 more.
-const float MAX_STEPS = 25000.0f;
+const float MAX_STEPS = 17000.0f;
 // Shortest step as a share of the distance from the point nearest the box's middle: steps are
 // counted from there, and ends of shorter ones would be the same float.
 const float LEAST_STEP = 2.4e-7f;  // 2^-22
@@ -231,7 +231,7 @@ void main() {
     // The test stands in front: lavapipe goes on with lanes whose loop has ended, so that what a
     // test at the end leaves is computed once more, from arrays that are already a stretch further.
     uint guard = 0u;
-    while (s < last && eyeDepth * keep < RAY_ENDS && guard < 26000u) {
+    while (s < last && eyeDepth * keep < RAY_ENDS && guard < 17500u) {
       if (LEAPS) {
         // The stretch takes up those after it in which there is nothing: no sample is lost.
         first += max(emptyStretches(m.box, m.boxStep, leap, s, last, dt, first) - 1.0f, 0.0f);

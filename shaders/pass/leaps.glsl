@@ -37,18 +37,18 @@ float emptySamples(vec3 box, LeapRay ray) {
   return whole || emptyEighth ? 1.0f + floor(min(room.x, min(room.y, room.z))) : 0.0f;
 }
 
-// How many stretches are empty from the one on that begins at s < last and ends `first` steps on.
+// How many stretches are empty from the one on that begins at s and ends `first` steps on.
 float emptyStretches(vec3 box, vec3 boxStep, LeapRay ray, float s, float last, float dt,
                      float first) {
   float count = 0.0f;
-  float more;
+  float more = 1.0f;
   float near = s;
-  // In rounds of their own, which are shorter than the march's. A test in front would take one more.
-  do {
+  // In rounds of their own, which are shorter than the march's.
+  while (more > 0.0f && near < last) {
     float far = min((first + count) * dt, last);
     more = emptySamples(box + 0.5f * (near + far) * boxStep, ray);
     count += more;
     near = min((first + count - 1.0f) * dt, last);
-  } while (more > 0.0f && near < last);
+  }
   return count;
 }
