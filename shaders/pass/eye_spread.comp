@@ -15,6 +15,8 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 5) const bool DEPTH_ENABLED = true;
+// Behind other volumes or surfaces.
+layout(constant_id = 9) const bool BEHIND = false;
 layout(constant_id = 13) const uint TO = SPREAD_TO_PIXELS;
 layout(constant_id = 14) const bool DISTANCE = false;
 
@@ -36,6 +38,9 @@ const bool TO_SECONDS = TO == SPREAD_TO_SECONDS;
 const float SMOOTH_SLABS = TO_SECONDS ? 0.32f : 0.64f;
 // Of the ray's length inside the box, by which its end may miss what its neighbours' ends promise.
 const float SAME_END = 0.02f;
+
+// Pixels of a cell without a ray of their own, which may ask for one: bits in a word, 32 at most.
+const uint ASKED_PER_CELL = 3u;
 
 // What a ray saw: radiance and transmittance; where it ends (m), 0 if it misses the box, and sums
 // for the volumes' distance.
@@ -118,7 +123,7 @@ void take(uvec2 pixel, Ray ray) {
   uint index = pixel.y * uint(frame.viewport.x) + pixel.x;
   vec4 front = vec4(0.0f, 0.0f, 0.0f, 1.0f);
   vec2 sums = vec2(0.0f);
-  if ((slice.flags & SLICE_FIRST_VOLUME) == 0u) {
+  if (BEHIND) {
     front = frameState[index];
     if (DISTANCE) {
       sums = distances[index].xy;
@@ -183,8 +188,8 @@ Ray larger(Ray a, Ray b) {
   return both;
 }
 
-// Takes on what lies between the neighbours, or asks for a ray.
-void settle(uvec2 at, Ray between, Ray error, Ray most, inout uint count, inout uvec3 asked) {
+// Takes on what lies between the neighbours, or asks for a ray: by a bit.
+void settle(uvec2 at, Ray between, Ray error, Ray most, uint bit, inout uint asked) {
   if (!inside(at)) {
     return;
   }
@@ -197,10 +202,31 @@ void settle(uvec2 at, Ray between, Ray error, Ray most, inout uint count, inout 
       take(at, between);
     }
   } else {
-    uint both = at.x | (at.y << 16u);
-    asked = count == 0u ? uvec3(both, 0u, 0u)
-                        : (count == 1u ? uvec3(asked.x, both, 0u) : uvec3(asked.xy, both));
-    count += 1u;
+    asked |= 1u << bit;
+  }
+}
+
+// Puts what an invocation asks for on the list: bits ASKED_PER_CELL to a cell, see settleCell. In
+// rounds, as many as the lane that asks for most: what a driver does for every cell it does so for
+// all lanes, whether they ask or not.
+void ask(uvec2 corner, uint asked) {
+  if (asked == 0u) {
+    return;
+  }
+  uint count = uint(bitCount(asked));
+  uint list = TO_SECONDS ? 0u : LIST_SIZE;
+  uint at = atomicAdd(seconds[list + 3u], count);
+  atomicMax(seconds[list + 1u], (at + count - 1u) / (64u * LIST_ROW) + 1u);
+  at += listAddress();
+  while (asked != 0u) {
+    uint bit = uint(findLSB(asked));
+    uint cell = bit / ASKED_PER_CELL;
+    uint which = bit - ASKED_PER_CELL * cell;
+    uvec2 place = corner + 2u * uvec2(cell % SPREAD_COLUMNS, cell / SPREAD_COLUMNS) +
+                  uvec2(which == 1u ? 0u : 1u, which == 0u ? 0u : 1u);
+    seconds[at] = place.x | (place.y << 16u);
+    at += 1u;
+    asked &= asked - 1u;
   }
 }
 
@@ -240,7 +266,8 @@ Rows rowsAt(ivec2 at) {
 }
 
 // 2 x 2 of them, the first of which has a ray of its own, from the four rows around.
-void settleCell(uvec2 corner, Row above, Row here, Row next, Row last) {
+void settleCell(uvec2 corner, Row above, Row here, Row next, Row last, uint cell,
+                inout uint asked) {
   Ray most = larger(here.most, next.most);
   most.state = vec4(vec3(max(max(most.state.x, most.state.y), most.state.z)), 1.0f);
   Ray below = cubic(above.second, here.second, next.second, last.second);
@@ -248,28 +275,13 @@ void settleCell(uvec2 corner, Row above, Row here, Row next, Row last) {
   Ray across = cubic(above.between, here.between, next.between, last.between);
   Ray acrossError = larger(cubicError(above.between, here.between, next.between, last.between),
                            larger(here.error, next.error));
-  uint count = 0u;
-  uvec3 asked = uvec3(0u);
   if (!TO_SECONDS && inside(corner)) {
     take(corner, here.second);
   }
-  settle(corner + uvec2(1u, 0u), here.between, here.error, most, count, asked);
-  settle(corner + uvec2(0u, 1u), below, belowError, most, count, asked);
-  settle(corner + uvec2(1u, 1u), across, acrossError, most, count, asked);
-  if (count > 0u) {
-    uint list = TO_SECONDS ? 0u : LIST_SIZE;
-    uint first = atomicAdd(seconds[list + 3u], count);
-    uint end = first + count - 1u;
-    atomicMax(seconds[list + 1u], end / (64u * LIST_ROW) + 1u);
-    uint at = listAddress() + first;
-    seconds[at] = asked.x;
-    if (count > 1u) {
-      seconds[at + 1u] = asked.y;
-    }
-    if (count > 2u) {
-      seconds[at + 2u] = asked.z;
-    }
-  }
+  uint bit = ASKED_PER_CELL * cell;
+  settle(corner + uvec2(1u, 0u), here.between, here.error, most, bit, asked);
+  settle(corner + uvec2(0u, 1u), below, belowError, most, bit + 1u, asked);
+  settle(corner + uvec2(1u, 1u), across, acrossError, most, bit + 2u, asked);
 }
 
 void main() {
@@ -280,13 +292,17 @@ void main() {
   Rows above = rowsAt(at - ivec2(0, 1));
   Rows here = rowsAt(at);
   Rows next = rowsAt(at + ivec2(0, 1));
+  uint asked = 0u;
   for (int i = 0; i < int(SPREAD_CELLS); ++i) {
     Rows last = rowsAt(at + ivec2(0, i + 2));
     uvec2 corner = uvec2(at) * 2u + uvec2(0u, 2u * uint(i));
-    settleCell(corner, above.left, here.left, next.left, last.left);
-    settleCell(corner + uvec2(2u, 0u), above.right, here.right, next.right, last.right);
+    uint cell = SPREAD_COLUMNS * uint(i);
+    settleCell(corner, above.left, here.left, next.left, last.left, cell, asked);
+    settleCell(corner + uvec2(2u, 0u), above.right, here.right, next.right, last.right, cell + 1u,
+               asked);
     above = here;
     here = next;
     next = last;
   }
+  ask(uvec2(at) * 2u, asked);
 }

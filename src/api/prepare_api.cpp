@@ -67,6 +67,7 @@ WlkResult wlkPrepare(WlkContext context) {
     prepareLightStores(c);
     prepareSurfaceLights(c);
     features.surfaces = c.surfaces.count();
+    features.several = c.volumes.count() + c.surfaces.count() > 1;
     c.recordVolumes.reserve(c.volumes.count());
     c.errorVolumes.reserve(c.volumes.count());
     c.recordSurfaces.reserve(c.surfaces.count());

@@ -28,9 +28,11 @@ vk::PipelineKey eyeKey(const EyeVariant& v, uint32_t fields, const SliceQuality&
   return key;
 }
 
-vk::PipelineKey spreadKey(uint32_t to, bool depth, bool distance) {
+vk::PipelineKey spreadKey(uint32_t to, bool depth, bool distance, bool behind) {
   vk::PipelineKey key{vk::Pass::EyeSpread, VK_FORMAT_UNDEFINED, {}};
   key.constants[5] = depth;
+  // Second pixels are of one volume.
+  key.constants[9] = behind && to == interface_::SPREAD_TO_PIXELS;
   key.constants[13] = to;
   key.constants[14] = distance;
   return key;
@@ -178,7 +180,8 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
                   v.rays = interface_::RAYS_OF_LIST;
                   pipelines.prepare(eyeKey(v, fields, quality));
                   for (const uint32_t to : SPREADS) {
-                    pipelines.prepare(spreadKey(to, depth, distance));
+                    pipelines.prepare(spreadKey(to, depth, distance, false));
+                    pipelines.prepare(spreadKey(to, depth, distance, features.several));
                   }
                 } else {
                   v.rays = interface_::RAYS_OF_PIXELS;

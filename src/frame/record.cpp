@@ -79,6 +79,18 @@ class Recorder {
   }
 
  private:
+  static bool before(const PlannedVolume& volume, const PlannedVolume& surface) {
+    return volume.drawn >= surface.drawn &&
+           (volume.drawn > surface.drawn || volume.distance <= surface.distance);
+  }
+
+  // Whether a volume is the first of all layers.
+  bool leads(const PlannedVolume& volume) const {
+    const Plan& plan = view_.plan;
+    return &volume == plan.volumes.data() &&
+           (plan.surfaces.empty() || before(volume, plan.surfaces.front()));
+  }
+
   // Volumes and surfaces, front to back; those that are not drawn come last in both lists.
   void recordLayers() {
     const Plan& plan = view_.plan;
@@ -86,11 +98,8 @@ class Recorder {
     auto surface = plan.surfaces.begin();
     while (volume != plan.volumes.end() || surface != plan.surfaces.end()) {
       const bool first = volume == plan.volumes.begin() && surface == plan.surfaces.begin();
-      const bool before =
-          surface == plan.surfaces.end() ||
-          (volume != plan.volumes.end() && volume->drawn >= surface->drawn &&
-           (volume->drawn > surface->drawn || volume->distance <= surface->distance));
-      if (before) {
+      if (surface == plan.surfaces.end() ||
+          (volume != plan.volumes.end() && before(*volume, *surface))) {
         recordVolume(c_, targets_, *volume, first);
         ++volume;
       } else {
@@ -104,7 +113,7 @@ class Recorder {
   void findPipelines() {
     const Plan& plan = view_.plan;
     for (const PlannedVolume& volume : plan.volumes) {
-      findVolumePipelines(c_, targets_, volume);
+      findVolumePipelines(c_, targets_, volume, leads(volume));
     }
     for (const PlannedVolume& surface : plan.surfaces) {
       findSurfacePipelines(c_, targets_, surface);

@@ -23,6 +23,7 @@ struct SceneFeatures {
   bool batches = false;  // do not
   bool ambient = false;  // volumes may be lit by sky and ground
   uint32_t surfaces = 0;
+  bool several = false;  // volumes and surfaces, together
 };
 
 // What views share.
@@ -83,7 +84,7 @@ vk::PipelineKey surfaceShadeKey(const SurfaceVariant& variant, const SliceQualit
 vk::PipelineKey distanceKey();
 // What pixels between rays take on.
 inline constexpr std::array SPREADS{interface_::SPREAD_TO_SECONDS, interface_::SPREAD_TO_PIXELS};
-vk::PipelineKey spreadKey(uint32_t to, bool depth, bool distance);
+vk::PipelineKey spreadKey(uint32_t to, bool depth, bool distance, bool behind);
 vk::PipelineKey eyeKey(const EyeVariant& variant, uint32_t fields, const SliceQuality& quality);
 inline constexpr std::array TRANSPORT_PASSES{
     vk::Pass::TransportDepth,  vk::Pass::TransportCells,       vk::Pass::TransportSweep,

@@ -39,8 +39,9 @@ bool marchesGrid(const FrameCommands& c, const PlannedVolume& planned) {
   return c.quality.halfVolumes && c.in.volumes[planned.index].store != nullptr;
 }
 
-vk::PipelineKey spreadKeyOf(uint32_t to, const ViewTargets& targets) {
-  return spreadKey(to, static_cast<bool>(targets.depth), static_cast<bool>(targets.volumeDistance));
+vk::PipelineKey spreadKeyOf(uint32_t to, const ViewTargets& targets, bool first) {
+  return spreadKey(to, static_cast<bool>(targets.depth), static_cast<bool>(targets.volumeDistance),
+                   !first);
 }
 
 // Whether voxels are wide enough for rays in every fourth pixel: a voxel's density reaches over
@@ -248,7 +249,7 @@ class VolumeRecorder {
   void dispatchSpread(uint32_t to, const PixelRect& rays, const SliceConstants& push,
                       WlkPassStats& eye, uint32_t index) {
     c_.orderShaders();
-    c_.dispatch(c_.find(spreadKeyOf(to, targets_)), c_.pipelines.volumeLayout(), &push,
+    c_.dispatch(c_.find(spreadKeyOf(to, targets_, first_)), c_.pipelines.volumeLayout(), &push,
                 groups((rays.x1 - rays.x0 + SPREAD_COLUMNS - 1) / SPREAD_COLUMNS),
                 groups((rays.y1 - rays.y0 + SPREAD_CELLS - 1) / SPREAD_CELLS), eye, index);
     c_.barrier({COMPUTE, SHADER_ACCESS}, {COMPUTE | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
@@ -382,7 +383,7 @@ class VolumeRecorder {
 }  // namespace
 
 void findVolumePipelines(const FrameCommands& commands, const ViewTargets& targets,
-                         const PlannedVolume& planned) {
+                         const PlannedVolume& planned, bool first) {
   if (!planned.drawn) {
     return;
   }
@@ -390,7 +391,7 @@ void findVolumePipelines(const FrameCommands& commands, const ViewTargets& targe
     commands.find(eyeKeyOf(commands, targets, planned, interface_::RAYS_OF_GRID));
     commands.find(eyeKeyOf(commands, targets, planned, interface_::RAYS_OF_LIST));
     for (const uint32_t to : SPREADS) {
-      commands.find(spreadKeyOf(to, targets));
+      commands.find(spreadKeyOf(to, targets, first));
     }
   } else {
     commands.find(eyeKeyOf(commands, targets, planned, interface_::RAYS_OF_PIXELS));

@@ -8,7 +8,7 @@ namespace welkin {
 
 // Throws NOT_PREPARED if a pipeline of the volume is missing; records nothing.
 void findVolumePipelines(const FrameCommands& commands, const ViewTargets& targets,
-                         const PlannedVolume& planned);
+                         const PlannedVolume& planned, bool first);
 
 // Records a volume of the plan, drawn or not, and appends its lines to the statistics.
 // `first`: no other volume or surface was recorded before it.
