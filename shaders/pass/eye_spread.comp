@@ -206,9 +206,9 @@ void settle(uvec2 at, Ray between, Ray error, Ray most, uint bit, inout uint ask
   }
 }
 
-// Puts what an invocation asks for on the list: bits ASKED_PER_CELL to a cell, see settleCell. In
-// rounds, as many as the lane that asks for most: what a driver does for every cell it does so for
-// all lanes, whether they ask or not.
+// Puts what an invocation asks for on the list: bits ASKED_PER_CELL to a cell, see settleCell. Once
+// for all its cells, and in a loop that ends when no lane asks for more: lavapipe takes all lanes
+// through a cell's own atomics and stores, whether they ask or not.
 void ask(uvec2 corner, uint asked) {
   if (asked == 0u) {
     return;

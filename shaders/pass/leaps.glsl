@@ -21,18 +21,21 @@ LeapRay leapRay(vec3 boxStep, float dt) {
 
 // Samples, a step from one another, that are 0: from the one at a position in the unit box on.
 float emptySamples(vec3 box, LeapRay ray) {
-  vec3 voxel = clamp(box * fieldVoxels - 0.5f, vec3(0.0f), fieldVoxels - 1.0f);
+  vec3 place = box * fieldVoxels - 0.5f;
+  vec3 voxel = clamp(place, vec3(0.0f), fieldVoxels - 1.0f);
   vec3 brick = floor(voxel * 0.125f);
   vec2 leap = floor(texelFetch(leaps, ivec3(brick), 0).xy * 255.0f + 0.5f);
-  vec3 inBrick = voxel - 8.0f * brick;
-  vec3 second = step(vec3(4.0f), inBrick);
+  vec3 second = step(vec3(4.0f), voxel - 8.0f * brick);
   uint eighth = uint(second.x + 2.0f * second.y + 4.0f * second.z);
   bool emptyEighth = (uint(leap.y) >> eighth & 1u) == 0u;
-  // To the faces of the cube of empty bricks around this one, or of its eighth.
+  // To the faces of the cube of empty bricks around this one, or of its eighth. What lies before
+  // the volume's first voxels is as they are: a ray along its face would else not come away from it.
   bool whole = leap.x > 0.0f;
   float edge = whole ? 8.0f : 4.0f;
-  vec3 inside = whole ? inBrick : inBrick - 4.0f * second;
-  vec3 room = (max(8.0f * (leap.x - 1.0f), 0.0f) + mix(inside, edge - inside, ray.ahead)) *
+  vec3 corner = 8.0f * brick + (whole ? vec3(0.0f) : 4.0f * second);
+  vec3 inside = place - corner;
+  vec3 behind = inside + mix(vec3(0.0f), vec3(1.0f), lessThan(corner, vec3(0.5f)));
+  vec3 room = (max(8.0f * (leap.x - 1.0f), 0.0f) + mix(behind, edge - inside, ray.ahead)) *
               ray.perVoxel;
   return whole || emptyEighth ? 1.0f + floor(min(room.x, min(room.y, room.z))) : 0.0f;
 }

@@ -23,7 +23,7 @@ struct SceneFeatures {
   bool batches = false;  // do not
   bool ambient = false;  // volumes may be lit by sky and ground
   uint32_t surfaces = 0;
-  bool several = false;  // volumes and surfaces, together
+  bool several = false;  // more than one volume or surface
 };
 
 // What views share.

@@ -19,6 +19,7 @@ using interface_::FrameUniforms;
 using interface_::SliceConstants;
 using interface_::SPREAD_CELLS;
 using interface_::SPREAD_COLUMNS;
+static_assert(3 * SPREAD_COLUMNS * SPREAD_CELLS <= 32, "eye_spread.comp asks by bits of a word");
 using interface_::VolumeUniforms;
 
 vk::PipelineKey eyeKeyOf(const FrameCommands& c, const ViewTargets& targets,

@@ -212,7 +212,6 @@ std::vector<Goal> goalsOf(const VolumeResults& results) {
       cpuRate = cpuRate < 0 ? one.cpu : std::min(cpuRate, one.cpu);
     }
     for (const EqualError& at : equalErrors(study)) {
-      // An error above the mean is no picture of the cloud.
       std::array<double, 2>& worst = study.one.occupied == 1 ? full
                                      : at.error < 1          ? sparse
                                                              : coarse;
@@ -221,9 +220,9 @@ std::vector<Goal> goalsOf(const VolumeResults& results) {
   }
   return {{"sample rate over the bare loop's", WANTED_RATE, true, rate, cpuRate},
           {"time over the slicer's at equal error, full", WANTED_FULL, false, full[0], full[1]},
-          {"the same, 20 % of bricks, errors below the mean", WANTED_SPARSE, false, sparse[0],
+          {"the same, 20 % of bricks, errors of a seventh or less", WANTED_SPARSE, false, sparse[0],
            sparse[1]},
-          {"the same, 20 % of bricks, errors above it", WANTED_SPARSE, false, coarse[0], coarse[1]},
+          {"the same, 20 % of bricks, larger errors", WANTED_SPARSE, false, coarse[0], coarse[1]},
           {"speed-up from two cores, sky above, cloud below", WANTED_SPEED_UP, true,
            speedUp(results), balance(results)}};
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <random>
 
 #include "support/brick_volume.hpp"
 #include "support/headless_scene.hpp"
@@ -247,8 +248,51 @@ TEST(Leaps, LeaveThePictureAsItIs) {
   }
 }
 
-// Along a beam of voxels under a sun above, in a layer that is a thousand times as wide as high, a
-// ray takes as many steps as it may, nearly all in bricks that hold something: leaps take rounds
+// Steps several voxels long pass beside corners of what is not empty: what lies between two samples
+// without anything is not met either.
+TEST(Leaps, MeetNothingThatStepsPassBy) {
+  constexpr uint32_t N = 64;
+  std::vector<float> crumbs(size_t{N} * N * N);
+  std::mt19937 random(3);
+  std::uniform_int_distribution<size_t> inside(2, N - 3);
+  for (int i = 0; i < 60; ++i) {
+    const std::array<size_t, 3> at{inside(random), inside(random), inside(random)};
+    for (size_t n = 0; n < 27; ++n) {
+      crumbs[((at[2] + n / 9 - 1) * N + at[1] + n / 3 % 3 - 1) * N + at[0] + n % 3 - 1] = 1.0f;
+    }
+  }
+  SceneOptions o = options(WLK_QUALITY_LOW);
+  o.width = 128;
+  o.height = 96;
+  HeadlessScene scene(o);
+  scene.setSun(35, 70);
+  const WlkVolume volume =
+      scene.addVolume(scene.addHenyeyGreenstein(0.3f), {N, N, N},
+                      boxTransform({-500, 500, -1800}, {1000, 1000, 1000}), 0.01f);
+  scene.upload(volume, {N, N, N}, crumbs, 0);
+  const auto draw = [&](uint64_t flags) {
+    auto quality = make<WlkQuality>();
+    quality.sliceCount = 8;
+    quality.volumeResolution = WLK_VOLUME_RESOLUTION_FULL;
+    quality.flags = flags;
+    check(wlkSetQuality(scene.context, scene.view, &quality));
+    return scene.render();
+  };
+  for (const double pitch_deg : {0.0, 10.0}) {
+    scene.setCamera({0, 900, 0}, 5, pitch_deg);
+    const Image all = draw(WLK_QUALITY_FLAG_NO_SKIP);
+    const Image leaping = draw(0);
+    EXPECT_GT(all.mean(), 0.0);
+    EXPECT_LE(largestDifference(leaping, all), 0.1 * BOUND);
+    std::printf("crumbs: leaps change %.1e of the mean\n", largestDifference(leaping, all));
+  }
+  auto state = make<WlkVolumeState>();
+  check(wlkGetVolumeState(scene.context, volume, &state));
+  EXPECT_EQ(state.leaps, 1u);
+}
+
+// Along a beam of voxels under a sun above, in a layer 2000 times as wide as high, a ray
+// takes as many steps as it may, nearly all in bricks that hold something: leaps take rounds
 // of their own, and a driver that counts all of them must not end the ray before its time.
 TEST(Leaps, LetTheLongestRaysComeToTheirEnd) {
   constexpr std::array<uint32_t, 3> LAYER{64, 64, 64};

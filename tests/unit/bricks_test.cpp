@@ -68,7 +68,7 @@ TEST(Bricks, FillTheirAtlasAndPagesAreExact) {
   EXPECT_EQ(atlasShape(1000, 10), (Edges{10, 10, 10}));
 }
 
-// Any voxel of a filter's, by which lower voxels an eighth has: 4 of them along each axis.
+// Whether a filter reads one of the voxels when its lower one is among the `edge` from `first` on.
 bool reaches(const std::vector<Edges>& voxels, const Edges& first, uint32_t edge) {
   return std::any_of(voxels.begin(), voxels.end(), [&](const Edges& v) {
     for (size_t axis = 0; axis < 3; ++axis) {
