@@ -29,7 +29,8 @@ float emptySamples(vec3 box, LeapRay ray) {
   uint eighth = uint(second.x + 2.0f * second.y + 4.0f * second.z);
   bool emptyEighth = (uint(leap.y) >> eighth & 1u) == 0u;
   // To the faces of the cube of empty bricks around this one, or of its eighth. What lies before
-  // the volume's first voxels is as they are: a ray along its face would else not come away from it.
+  // the volume's first voxels is as they are: else a ray along its face would not come away from
+  // it.
   bool whole = leap.x > 0.0f;
   float edge = whole ? 8.0f : 4.0f;
   vec3 corner = 8.0f * brick + (whole ? vec3(0.0f) : 4.0f * second);
