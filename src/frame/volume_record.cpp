@@ -19,8 +19,9 @@ using interface_::FrameUniforms;
 using interface_::SliceConstants;
 using interface_::SPREAD_CELLS;
 using interface_::SPREAD_COLUMNS;
-static_assert(3 * SPREAD_COLUMNS * SPREAD_CELLS <= 32, "eye_spread.comp asks by bits of a word");
 using interface_::VolumeUniforms;
+
+static_assert(3 * SPREAD_COLUMNS * SPREAD_CELLS <= 32, "eye_spread.comp asks by bits of a word");
 
 vk::PipelineKey eyeKeyOf(const FrameCommands& c, const ViewTargets& targets,
                          const PlannedVolume& planned, uint32_t rays) {

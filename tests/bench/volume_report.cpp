@@ -198,6 +198,7 @@ Ordered rowJson(const VolumeRow& row) {
 }  // namespace
 
 std::vector<Goal> goalsOf(const VolumeResults& results) {
+  constexpr double FINE = 1.0 / 7;  // at larger errors no more than an impression of the cloud
   // Worst of all cases; of times and of CPU times.
   double rate = -1;
   double cpuRate = -1;
@@ -213,7 +214,7 @@ std::vector<Goal> goalsOf(const VolumeResults& results) {
     }
     for (const EqualError& at : equalErrors(study)) {
       std::array<double, 2>& worst = study.one.occupied == 1 ? full
-                                     : at.error < 1          ? sparse
+                                     : at.error < FINE       ? sparse
                                                              : coarse;
       worst = {std::max(worst[0], at.ratio), std::max(worst[1], at.cpuRatio)};
     }
