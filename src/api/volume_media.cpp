@@ -11,7 +11,7 @@ namespace welkin {
 void renewMedia(WlkContext_T& c, double most) {
   for (uint32_t i = 0; i < c.volumes.slotCount(); ++i) {
     VolumeState* volume = c.volumes.at(i);
-    if (volume == nullptr || !volume->transport || !(shareChange(*volume) > most)) {
+    if (volume == nullptr || !volume->transport || !(mediaChange(*volume) > most)) {
       continue;
     }
     c.retired.reserve(c.retired.size() + 1);

@@ -140,6 +140,76 @@ TransportFan layerFan(const TransportMedia& media, const glm::dmat3& box,
   return fan;
 }
 
+// What holds all density, in the unit box; all of it where there is none.
+struct FilledBox {
+  glm::dvec3 low{0};
+  glm::dvec3 high{1};
+};
+
+FilledBox filledBox(const VolumeState& volume) {
+  glm::dvec3 low(1);
+  glm::dvec3 high(0);
+  for (uint32_t f = 0; f < volume.fieldCount; ++f) {
+    const FieldState& field = volume.fields[f];
+    for (int i = 0; i < 3; ++i) {
+      const auto axis = static_cast<size_t>(i);
+      const double voxels = volume.size[axis];
+      if (field.external) {
+        low[i] = 0;
+        high[i] = 1;
+      } else if (field.filled.end[axis] > 0) {
+        // Filtering spreads a voxel's value by half a voxel on either side.
+        low[i] = std::min(low[i], (field.filled.first[axis] - 0.5) / voxels);
+        high[i] = std::max(high[i], (field.filled.end[axis] + 0.5) / voxels);
+      }
+    }
+  }
+  FilledBox result;
+  for (int i = 0; i < 3; ++i) {
+    if (high[i] > low[i]) {
+      result.low[i] = std::max(low[i], 0.0);
+      result.high[i] = std::min(high[i], 1.0);
+    }
+  }
+  return result;
+}
+
+// m.
+glm::dvec3 extentOf(const VolumeState& volume, const FilledBox& filled) {
+  glm::dvec3 extent(0);
+  for (int i = 0; i < 3; ++i) {
+    extent[i] = glm::length(glm::dvec3(volume.worldFromBox[i])) * (filled.high[i] - filled.low[i]);
+  }
+  return extent;
+}
+
+// Of a layer of optical depth `depth`, without the peak: no more cells along its normal than it
+// needs, as many as that leaves room for along its plane, where an eye sees cells of other sides
+// than their middles do.
+std::array<uint32_t, 3> layerCells(uint32_t edge, int thinAxis, double depth) {
+  constexpr double MOST = 0.6;  // optical depth of a cell
+  for (uint32_t thin = 8; thin < edge; thin += 8) {
+    uint32_t wide = edge;
+    while (wide + 8 <= transportImageEdge(edge) &&
+           uint64_t{wide + 8} * (wide + 8) * thin <= uint64_t{edge} * edge * edge) {
+      wide += 8;
+    }
+    if (depth <= MOST * thin && wide > edge) {
+      std::array<uint32_t, 3> cells = {wide, wide, wide};
+      cells[static_cast<size_t>(thinAxis)] = thin;
+      return cells;
+    }
+  }
+  return {edge, edge, edge};
+}
+
+// Media differ by steps of it: voxels that hardly change leave them as they are.
+constexpr double TURNED_STEP = 1.0 / 16;
+
+double stepOfTurned(double share) {
+  return std::round(share / TURNED_STEP) * TURNED_STEP;
+}
+
 }  // namespace
 
 double transportPair(const TransportMedia& media, size_t function, double angle) {
@@ -162,31 +232,11 @@ uint32_t transportImageEdge(uint32_t edge) {
 TransportShape transportShape(const VolumeState& volume, uint32_t edge) {
   constexpr double FLAT = 0.4;  // of the longest edge
   constexpr double LAYER = 0.1;
-  glm::dvec3 low(1);
-  glm::dvec3 high(0);
-  for (uint32_t f = 0; f < volume.fieldCount; ++f) {
-    const FieldState& field = volume.fields[f];
-    for (int i = 0; i < 3; ++i) {
-      const auto axis = static_cast<size_t>(i);
-      const double voxels = volume.size[axis];
-      if (field.external) {
-        low[i] = 0;
-        high[i] = 1;
-      } else if (field.filled.end[axis] > 0) {
-        // Filtering spreads a voxel's value by half a voxel on either side.
-        low[i] = std::min(low[i], (field.filled.first[axis] - 0.5) / voxels);
-        high[i] = std::max(high[i], (field.filled.end[axis] + 0.5) / voxels);
-      }
-    }
-  }
+  const FilledBox filled = filledBox(volume);
   TransportShape shape;
-  const glm::dmat3 box(volume.worldFromBox);
-  glm::dvec3 extent(0);
-  for (int i = 0; i < 3; ++i) {
-    shape.origin[i] = high[i] > low[i] ? std::max(low[i], 0.0) : 0.0;
-    shape.size[i] = (high[i] > low[i] ? std::min(high[i], 1.0) : 1.0) - shape.origin[i];
-    extent[i] = glm::length(box[i]) * shape.size[i];
-  }
+  shape.origin = filled.low;
+  shape.size = filled.high - filled.low;
+  const glm::dvec3 extent = extentOf(volume, filled);
   const double longest = std::max({extent.x, extent.y, extent.z});
   for (int i = 0; i < 3; ++i) {
     if (extent[i] < FLAT * longest && (shape.thinAxis < 0 || extent[i] < extent[shape.thinAxis])) {
@@ -195,6 +245,9 @@ TransportShape transportShape(const VolumeState& volume, uint32_t edge) {
   }
   shape.cells = {edge, edge, edge};
   shape.layer = shape.thinAxis >= 0 && extent[shape.thinAxis] < LAYER * longest;
+  if (shape.layer) {
+    shape.cells = layerCells(edge, shape.thinAxis, thinDepth(volume));
+  }
   if (shape.thinAxis >= 0) {
     return shape;
   }
@@ -277,22 +330,33 @@ static void fillFineKernel(const VolumeState& volume,
 TransportMedia transportMedia(const VolumeState& volume) {
   TransportMedia media;
   media.shares = fieldShares(volume);
+  media.turned = stepOfTurned(turnedShare(volume));
+  const double turned = media.turned;
   const std::vector<double> weights = fieldWeights(volume, media.shares);
   std::vector<const TransportPhase*> phases;
+  std::vector<const TransportPhase*> mixed;  // of `parts` each
+  std::vector<double> parts;
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
     const FieldState& field = volume.fields[i];
-    phases.push_back(&field.tables->own.transport(*field.medium.particle));
+    const Particle& particle = *field.medium.particle;
+    phases.push_back(&field.tables->own.transport(particle));
+    mixed.insert(mixed.end(), {phases[i], &field.tables->own.turned(particle)});
+    parts.insert(parts.end(), {weights[i] * (1 - turned), weights[i] * turned});
     media.peak += weights[i] * meanAlbedo(field) * phases[i]->peak;
   }
   // Of a phase function that is all peak something is left to divide by.
   media.peak = std::min(media.peak, 0.99);
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
     const double f = phases[i]->peak;
+    const TransportPhase& many = *mixed[2 * i + 1];
     const double albedo = meanAlbedo(volume.fields[i]);
-    media.fieldFourth[static_cast<int>(i)] = static_cast<float>(
-        (albedo * (f + (1 - f) * phases[i]->fourth) - media.peak) / (1 - media.peak));
+    const double fourth = std::lerp(phases[i]->fourth, many.fourth, turned);
+    media.fieldFourth[static_cast<int>(i)] =
+        static_cast<float>((albedo * (f + (1 - f) * fourth) - media.peak) / (1 - media.peak));
     for (int l = 0; l < TRANSPORT_MOMENTS; ++l) {
-      const double moment = f + (1 - f) * phases[i]->moments[static_cast<size_t>(l)];
+      const auto degree = static_cast<size_t>(l);
+      const double rest = std::lerp(phases[i]->moments[degree], many.moments[degree], turned);
+      const double moment = f + (1 - f) * rest;
       media.fieldMoments[i][l] =
           static_cast<float>((albedo * moment - media.peak) / (1 - media.peak));
       for (int c = 0; c < 3; ++c) {
@@ -303,10 +367,10 @@ TransportMedia transportMedia(const VolumeState& volume) {
     }
   }
   fillFineKernel(volume, phases, weights, media);
-  const bool alone = volume.fieldCount == 1;
-  const TransportPairs mixed = alone ? TransportPairs{} : transportPairs(phases, weights);
+  const bool shared = volume.fieldCount == 1 && turned == 1;
+  const TransportPairs own = shared ? TransportPairs{} : transportPairs(mixed, parts);
   const FieldState& first = volume.fields[0];
-  const TransportPairs& pairs = alone ? first.tables->own.pairs(*first.medium.particle) : mixed;
+  const TransportPairs& pairs = shared ? first.tables->own.pairs(*first.medium.particle) : own;
   for (size_t l = 0; l < TRANSPORT_MOMENTS; ++l) {
     for (size_t k = 0; k < TRANSPORT_FIRST; ++k) {
       const auto& once = pairs.first[l][k];
@@ -320,14 +384,41 @@ TransportMedia transportMedia(const VolumeState& volume) {
   return media;
 }
 
-double shareChange(const VolumeState& volume) {
+double thinDepth(const VolumeState& volume) {
+  double extinction = 0;  // mean over the box, without the peak, 1/m
+  for (uint32_t i = 0; i < volume.fieldCount; ++i) {
+    const FieldState& field = volume.fields[i];
+    if (field.external) {
+      return UNKNOWN_DEPTH;
+    }
+    const Particle& particle = *field.medium.particle;
+    const double peak = meanAlbedo(field) * field.tables->own.transport(particle).peak;
+    extinction += field.extinctionScale * field.medium.extinctionFactor() * field.mean * (1 - peak);
+  }
+  if (!(extinction > 0)) {
+    return UNKNOWN_DEPTH;
+  }
+  const FilledBox filled = filledBox(volume);
+  const glm::dvec3 extent = extentOf(volume, filled);
+  const glm::dvec3 part = filled.high - filled.low;
+  const double filledMean = extinction / std::max(part.x * part.y * part.z, 1e-300);
+  return std::min(filledMean * std::min({extent.x, extent.y, extent.z}), UNKNOWN_DEPTH);
+}
+
+double turnedShare(const VolumeState& volume) {
+  return -std::expm1(-thinDepth(volume));
+}
+
+double mediaChange(const VolumeState& volume) {
+  const TransportMedia& media = *volume.transport;
+  const double turned = turnedShare(volume);
+  double most = stepOfTurned(turned) == media.turned ? 0.0 : std::abs(turned - media.turned);
   if (volume.fieldCount == 1) {
-    return 0;  // the only one
+    return most;
   }
   const std::array<double, WLK_MAX_FIELDS> now = fieldShares(volume);
-  double most = 0;
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
-    most = std::max(most, std::abs(now[i] - volume.transport->shares[i]));
+    most = std::max(most, std::abs(now[i] - media.shares[i]));
   }
   return most;
 }

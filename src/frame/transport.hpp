@@ -49,10 +49,19 @@ struct TransportMedia {
   std::vector<float> response;  // RGBA, see PAIR_TABLE_NODES
   // Of the fields in the extinction, by which all these are means; all 0: nothing was there yet.
   std::array<double, WLK_MAX_FIELDS> shares{};
+  // Of the turns by the peak that an endless medium would add between two others (turnedPhase).
+  double turned = 1;
 };
 TransportMedia transportMedia(const VolumeState& volume);
-// The largest change of a field's share since the volume's media were made.
-double shareChange(const VolumeState& volume);
+// The largest change of a field's share, or of the turns', since the volume's media were made.
+double mediaChange(const VolumeState& volume);
+// Mean optical depth, without the peak, across what is filled of the volume where that is thinnest;
+// UNKNOWN_DEPTH for engines' images and where nothing is.
+constexpr double UNKNOWN_DEPTH = 1e6;
+double thinDepth(const VolumeState& volume);
+// 1 - e^-thinDepth: in a thin layer light leaves before the peak has turned it as often as in an
+// endless one.
+double turnedShare(const VolumeState& volume);
 // Mean over the colours of a function of the pair table at a scattering angle.
 double transportPair(const TransportMedia& media, size_t function, double angle);
 

@@ -36,9 +36,18 @@ const TransportPhase& ParticleTables::transport(const Particle& particle) {
   return *transport_;
 }
 
+const TransportPhase& ParticleTables::turned(const Particle& particle) {
+  if (!turned_) {
+    turned_ =
+        std::make_unique<const TransportPhase>(turnedPhase(particle.curve, transport(particle)));
+    ++made_;
+  }
+  return *turned_;
+}
+
 const TransportPairs& ParticleTables::pairs(const Particle& particle) {
   if (!pairs_) {
-    const TransportPhase* phase = &transport(particle);
+    const TransportPhase* phase = &turned(particle);
     constexpr double ALL = 1;
     pairs_ = std::make_unique<const TransportPairs>(
         transportPairs(std::span(&phase, 1), std::span(&ALL, 1)));

@@ -287,6 +287,43 @@ void writeOnce(const std::vector<double>& y, const std::vector<double>& p, float
   }
 }
 
+// Moments of the mean over the channels of P', which stands in `phase` already.
+void fillMoments(TransportPhase& phase) {
+  for (const std::vector<double>& rest : phase.rest) {
+    Moments chi(TRANSPORT_MOMENTS + 1);
+    legendreMoments(phase.y, rest, chi);
+    for (size_t l = 0; l < TRANSPORT_MOMENTS; ++l) {
+      phase.moments[l] += chi[l] / SOURCE_CHANNELS;
+    }
+    phase.fourth += chi[TRANSPORT_MOMENTS] / SOURCE_CHANNELS;
+  }
+}
+
+// The part 1 - f that no peak has turned keeps its shape, so that no series has to follow it.
+std::vector<double> turnedRest(const PhaseCurve& curve, size_t channel,
+                               const std::vector<double>& rest) {
+  Moments series = scatteringMoments(curve.y, rest, PAIR_TERMS);
+  Moments peak(series.size());
+  legendreMoments(curve.y, peakOf(curve, channel), peak);
+  const double sharp = std::max(1 - peak[0], LEAST_REST);
+  for (size_t l = 0; l < series.size(); ++l) {
+    series[l] *= sharp * peak[l] / std::max(1 - peak[l], LEAST_REST);
+  }
+  const double integral = series[0];
+  const std::vector<std::vector<double>> one = {seriesOf(std::move(series))};
+  std::vector<double> result(rest.size());
+  legendreSums(curve.y, one, result);
+  for (double& value : result) {
+    value = std::max(value, 0.0);
+  }
+  const double total = sphereIntegral(curve.y, result);
+  const double scale = total > 0 ? integral / total : 0;
+  for (size_t i = 0; i < rest.size(); ++i) {
+    result[i] = sharp * rest[i] + scale * result[i];
+  }
+  return result;
+}
+
 }  // namespace
 
 TransportPhase transportPhase(const PhaseCurve& curve) {
@@ -300,13 +337,20 @@ TransportPhase transportPhase(const PhaseCurve& curve) {
     for (double& value : rest) {
       value = share > LEAST_REST ? value / share : INV_4PI;
     }
-    Moments chi(TRANSPORT_MOMENTS + 1);
-    legendreMoments(curve.y, rest, chi);
-    for (size_t l = 0; l < TRANSPORT_MOMENTS; ++l) {
-      result.moments[l] += chi[l] / SOURCE_CHANNELS;
-    }
-    result.fourth += chi[TRANSPORT_MOMENTS] / SOURCE_CHANNELS;
   }
+  fillMoments(result);
+  return result;
+}
+
+TransportPhase turnedPhase(const PhaseCurve& curve, const TransportPhase& phase) {
+  TransportPhase result;
+  result.peak = phase.peak;
+  result.y = phase.y;
+  for (size_t c = 0; c < SOURCE_CHANNELS; ++c) {
+    const bool same = c > 0 && curve.value[c] == curve.value[c - 1];
+    result.rest[c] = same ? result.rest[c - 1] : turnedRest(curve, c, phase.rest[c]);
+  }
+  fillMoments(result);
   return result;
 }
 

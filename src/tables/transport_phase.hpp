@@ -34,6 +34,12 @@ struct TransportPhase {
 // a chord. f and moments to 1e-5 (TransportPhase.HasThePeakAndTheMomentsOfItsDefinition); 0.1 ms.
 TransportPhase transportPhase(const PhaseCurve& curve);
 
+// P' of `phase`, that curve's, and all the turns that the peak adds in an endless white medium
+// until the rest turns light next: k with probability (1 - f) f^k, so that moments are chi'_l (1 -
+// f) / (1
+// - p_l), p_l those of the peak, p_0 = f. 2048 nodes: 1 to 50 ms.
+TransportPhase turnedPhase(const PhaseCurve& curve, const TransportPhase& phase);
+
 // Light that is scattered once by P and was turned by the peak on its way to and from there, x =
 // albedo * optical depth of the whole way, attenuated by tau' = (1 - f albedo) tau elsewhere: the
 // rest has moments (chi_l - p_l) e^(-x (f - p_l)), p_l those of the peak, p_0 = f. Light that only

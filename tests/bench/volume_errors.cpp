@@ -28,6 +28,7 @@ struct Options {
   std::vector<std::string> forms;
   uint32_t rounds = 3;
   uint32_t light = 0;
+  uint32_t cells = 0;
   bool quick = false;
 };
 
@@ -151,7 +152,7 @@ void run(const Options& options) {
     report["rows"] = readRows(options.json);
   }
   const std::vector<VolumeGroup> groups = volumeGroups(options.truth, options.les);
-  VolumeWorld world(options.light);
+  VolumeWorld world(options.light, options.cells);
   report["device"] = deviceOf(world.capabilities());
   const Form* warm = nullptr;
   for (const Form& form : FORMS) {
@@ -207,6 +208,8 @@ int main(int argc, char** argv) {
           "all-orders, forward, forward-integer or single; may be repeated");
   app.add_option("--light", options.light,
                  "Texels along the light buffer's edge (default: the level's)");
+  app.add_option("--cells", options.cells,
+                 "Cells along the edge of the grid of light (default: the level's)");
   app.add_option("--rounds", options.rounds, "Of timing (default 3)")->check(CLI::Range(1, 1000));
   app.add_flag("--quick", options.quick, "One volume of each kind, one round");
   CLI11_PARSE(app, argc, argv);

@@ -181,8 +181,10 @@ std::vector<VolumeGroup> volumeGroups(const std::string& folder, const std::stri
   return groups;
 }
 
-VolumeWorld::VolumeWorld(uint32_t lightBufferSize)
-    : context_(host::makeHeadlessContext(false, "", log_)), lightBufferSize_(lightBufferSize) {}
+VolumeWorld::VolumeWorld(uint32_t lightBufferSize, uint32_t cells)
+    : context_(host::makeHeadlessContext(false, "", log_)),
+      lightBufferSize_(lightBufferSize),
+      cells_(cells) {}
 
 void VolumeWorld::clear() {
   if (group_ == nullptr) {
@@ -224,6 +226,7 @@ void VolumeWorld::show(const VolumeGroup& group, uint32_t level, uint32_t scatte
   quality.level = level;
   quality.scattering = scattering;
   quality.lightBufferSize = lightBufferSize_;
+  quality.volumeCells = cells_;
   quality.volumeResolution = WLK_VOLUME_RESOLUTION_FULL;
   host::check(wlkSetQuality(context, view_, &quality), "wlkSetQuality");
   group_ = &group;

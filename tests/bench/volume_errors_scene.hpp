@@ -49,7 +49,7 @@ struct VolumeFrame {
 class VolumeWorld {
  public:
   // 0: the light buffer of the level.
-  explicit VolumeWorld(uint32_t lightBufferSize = 0);
+  explicit VolumeWorld(uint32_t lightBufferSize = 0, uint32_t cells = 0);
   /// Takes the place of the volume and the view before.
   void show(const VolumeGroup& group, uint32_t level, uint32_t scattering);
   /// The light by `steps` millionths of a radian beside its place: what was kept is void.
@@ -65,6 +65,7 @@ class VolumeWorld {
   host::LogCounter log_;  // outlives the context
   host::ContextPtr context_;
   uint32_t lightBufferSize_;
+  uint32_t cells_;
   const VolumeGroup* group_ = nullptr;
   uint32_t width_ = 0;
   uint32_t height_ = 0;

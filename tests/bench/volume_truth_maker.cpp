@@ -5,6 +5,7 @@
 //   --dir F --only sphere-2- --paths 50000                     2 minutes
 //   --dir F --only sphere-10 --only sphere-30 --paths 20000    9 minutes
 //   --dir F --only cumulus --paths 10000 --seed 1              7 minutes
+//   --dir F --only cumulus-back-hg --paths 100000 --seed 11    9 minutes, in place of the former
 //   --dir F --slabs                                            1 minute
 //   --dir F --les DATA --only les-single
 #include <CLI/CLI.hpp>
