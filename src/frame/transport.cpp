@@ -183,18 +183,13 @@ glm::dvec3 extentOf(const VolumeState& volume, const FilledBox& filled) {
   return extent;
 }
 
-// Of a layer of optical depth `depth`, without the peak: no more cells along its normal than it
-// needs, as many as that leaves room for along its plane, where an eye sees cells of other sides
-// than their middles do.
+// Of a layer of optical depth `depth`, without the peak: as many cells along its plane, where an eye
+// sees other sides of them than their middles do, as leave it enough along its normal.
 std::array<uint32_t, 3> layerCells(uint32_t edge, int thinAxis, double depth) {
   constexpr double MOST = 0.6;  // optical depth of a cell
-  for (uint32_t thin = 8; thin < edge; thin += 8) {
-    uint32_t wide = edge;
-    while (wide + 8 <= transportImageEdge(edge) &&
-           uint64_t{wide + 8} * (wide + 8) * thin <= uint64_t{edge} * edge * edge) {
-      wide += 8;
-    }
-    if (depth <= MOST * thin && wide > edge) {
+  for (uint32_t wide = transportImageEdge(edge) / 8 * 8; wide > edge; wide -= 8) {
+    const uint32_t thin = edge * edge / wide * edge / wide / 8 * 8;
+    if (thin > 0 && depth <= MOST * thin) {
       std::array<uint32_t, 3> cells = {wide, wide, wide};
       cells[static_cast<size_t>(thinAxis)] = thin;
       return cells;

@@ -181,6 +181,53 @@ TEST(TransportPhase, WhoseLightIsAllInThePeakIsIsotropic) {
   EXPECT_NEAR(phase.moments[1], 0, 1e-12);
 }
 
+// Of each channel: the peak turns light k times with probability (1 - f) f^k, sums of its powers
+// taken one by one, f and its moments by quadrature of the definition.
+TEST(TransportPhase, TurnedHasTheMomentsOfAllNumbersOfTurns) {
+  for (const double g : {-0.3, 0.3, 0.85, 0.95}) {
+    const PhaseCurve curve = henyeyGreensteinCurve(g);
+    const TransportPhase turned = turnedPhase(curve, transportPhase(curve));
+    const Truth truth{henyeyGreenstein(g)};
+    const Phase all = henyeyGreenstein(g);
+    const double f = 1 - truth.share;
+    for (int l = 0; l <= TRANSPORT_MOMENTS; ++l) {
+      const auto moment = [&](const std::function<double(Real)>& of) {
+        return static_cast<double>(
+            Truth::integral([&](Real t) { return of(t) * legendre(l, std::cos(t)); }));
+      };
+      const double rest = moment([&](Real t) { return truth.rest(yOf(t)); });
+      const double peak =
+          moment([&](Real t) { return all(yOf(t)) - truth.share * truth.rest(yOf(t)); });
+      double expected = 0;
+      double power = 1 - f;  // of k turns, times their moments
+      for (int k = 0; k < 400; ++k) {
+        expected += power * rest;
+        power *= peak;
+      }
+      EXPECT_NEAR(l < TRANSPORT_MOMENTS ? turned.moments[static_cast<size_t>(l)] : turned.fourth,
+                  expected, 3 * CHORD)
+          << g << " l " << l;
+    }
+    EXPECT_NEAR(turned.peak, f, CHORD) << g;
+  }
+}
+
+TEST(TransportPhase, TurnedIsPositiveAndNormalisedAndHasNoKink) {
+  for (const Named& medium : media()) {
+    const TransportPhase sharp = transportPhase(medium.curve);
+    const TransportPhase turned = turnedPhase(medium.curve, sharp);
+    for (size_t c = 0; c < SOURCE_CHANNELS; ++c) {
+      EXPECT_NEAR(sphereIntegral(turned.y, turned.rest[c]), 1, 1e-6) << medium.name;
+      const auto [least, most] = std::minmax_element(turned.rest[c].begin(), turned.rest[c].end());
+      EXPECT_GE(*least, 0) << medium.name;
+      // What turns light more never makes it sharper.
+      EXPECT_LE(*most, 1.001 * *std::max_element(sharp.rest[c].begin(), sharp.rest[c].end()))
+          << medium.name;
+    }
+    EXPECT_LE(turned.moments[1], sharp.moments[1] + CHORD) << medium.name;
+  }
+}
+
 TEST(TransportPairs, OfIsotropicScatteringAreOneAndTheIdentity) {
   const TransportPairs pairs = pairsOf(phaseOf([](double) { return 1; }));
   ASSERT_EQ(pairs.response.size(), 2 * PAIR_FUNCTIONS * PAIR_NODES * 4);
