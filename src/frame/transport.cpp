@@ -183,8 +183,8 @@ glm::dvec3 extentOf(const VolumeState& volume, const FilledBox& filled) {
   return extent;
 }
 
-// Of a layer of optical depth `depth`, without the peak: as many cells along its plane, where an eye
-// sees other sides of them than their middles do, as leave it enough along its normal.
+// Of a layer of optical depth `depth`, without the peak: as many cells along its plane, where an
+// eye sees other sides of them than their middles do, as leave it enough along its normal.
 std::array<uint32_t, 3> layerCells(uint32_t edge, int thinAxis, double depth) {
   constexpr double MOST = 0.6;  // optical depth of a cell
   for (uint32_t wide = transportImageEdge(edge) / 8 * 8; wide > edge; wide -= 8) {

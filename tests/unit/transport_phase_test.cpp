@@ -212,7 +212,7 @@ TEST(TransportPhase, TurnedHasTheMomentsOfAllNumbersOfTurns) {
   }
 }
 
-TEST(TransportPhase, TurnedIsPositiveAndNormalisedAndHasNoKink) {
+TEST(TransportPhase, TurnedIsPositiveAndNormalised) {
   for (const Named& medium : media()) {
     const TransportPhase sharp = transportPhase(medium.curve);
     const TransportPhase turned = turnedPhase(medium.curve, sharp);
