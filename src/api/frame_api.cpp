@@ -20,8 +20,9 @@ namespace {
 
 using namespace welkin;
 
-// Of a field's share in its volume's extinction, beyond which an update does not wait for
-// wlkPrepare: contents that flow must not have every frame make tables.
+// Of a field's share in its volume's extinction, or of the turns that its depth leaves, beyond
+// which an update does not wait for wlkPrepare: contents that flow must not have every frame make
+// tables.
 constexpr double SHARE_CHANGE = 0.05;
 
 constexpr WlkVulkanImageState NOTHING{VK_IMAGE_LAYOUT_UNDEFINED, 0, VK_PIPELINE_STAGE_2_NONE,

@@ -174,6 +174,11 @@ FilledBox filledBox(const VolumeState& volume) {
   return result;
 }
 
+bool isEmpty(const VolumeState& volume) {
+  return std::none_of(volume.fields.begin(), volume.fields.begin() + volume.fieldCount,
+                      [](const FieldState& field) { return field.external || field.mean > 0; });
+}
+
 // m.
 glm::dvec3 extentOf(const VolumeState& volume, const FilledBox& filled) {
   glm::dvec3 extent(0);
@@ -183,13 +188,15 @@ glm::dvec3 extentOf(const VolumeState& volume, const FilledBox& filled) {
   return extent;
 }
 
-// Of a layer of optical depth `depth`, without the peak: as many cells along its plane, where an
-// eye sees other sides of them than their middles do, as leave it enough along its normal.
-std::array<uint32_t, 3> layerCells(uint32_t edge, int thinAxis, double depth) {
-  constexpr double MOST = 0.6;  // optical depth of a cell
+// Of a layer of optical depth `depth`, without the peak, and of so many voxels along its normal: as
+// many cells along its plane, where an eye sees other sides of them than their middles do, as leave
+// it enough along its normal.
+std::array<uint32_t, 3> layerCells(uint32_t edge, int thinAxis, double depth, uint32_t voxels) {
+  constexpr double MOST = 0.6;          // optical depth of a cell
+  constexpr uint32_t MOST_VOXELS = 16;  // of a cell: those that transportTaps sees
   for (uint32_t wide = transportImageEdge(edge) / 8 * 8; wide > edge; wide -= 8) {
     const uint32_t thin = edge * edge / wide * edge / wide / 8 * 8;
-    if (thin > 0 && depth <= MOST * thin) {
+    if (thin > 0 && depth <= MOST * thin && voxels <= MOST_VOXELS * thin) {
       std::array<uint32_t, 3> cells = {wide, wide, wide};
       cells[static_cast<size_t>(thinAxis)] = thin;
       return cells;
@@ -198,11 +205,18 @@ std::array<uint32_t, 3> layerCells(uint32_t edge, int thinAxis, double depth) {
   return {edge, edge, edge};
 }
 
-// Media differ by steps of it: voxels that hardly change leave them as they are.
-constexpr double TURNED_STEP = 1.0 / 16;
+// Of the turns by its own peak that an endless medium of this field alone, white, would add between
+// two others: what the peak of all media and their absorption, `peak`, leave of them in the mean.
+double turnedOf(double turned, double own, double peak) {
+  if (!(own > 0) || own >= 1) {
+    return turned;
+  }
+  return turned * std::min(peak / (1 - peak) * (1 - own) / own, 1.0);
+}
 
+// Media differ by steps of it: voxels that hardly change leave them as they are.
 double stepOfTurned(double share) {
-  return std::round(share / TURNED_STEP) * TURNED_STEP;
+  return std::round(share * TURNED_STEPS) / TURNED_STEPS;
 }
 
 }  // namespace
@@ -241,7 +255,8 @@ TransportShape transportShape(const VolumeState& volume, uint32_t edge) {
   shape.cells = {edge, edge, edge};
   shape.layer = shape.thinAxis >= 0 && extent[shape.thinAxis] < LAYER * longest;
   if (shape.layer) {
-    shape.cells = layerCells(edge, shape.thinAxis, thinDepth(volume));
+    const uint32_t voxels = volume.size[static_cast<size_t>(shape.thinAxis)];
+    shape.cells = layerCells(edge, shape.thinAxis, thinDepth(volume), voxels);
   }
   if (shape.thinAxis >= 0) {
     return shape;
@@ -326,24 +341,27 @@ TransportMedia transportMedia(const VolumeState& volume) {
   TransportMedia media;
   media.shares = fieldShares(volume);
   media.turned = stepOfTurned(turnedShare(volume));
-  const double turned = media.turned;
   const std::vector<double> weights = fieldWeights(volume, media.shares);
   std::vector<const TransportPhase*> phases;
-  std::vector<const TransportPhase*> mixed;  // of `parts` each
-  std::vector<double> parts;
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
     const FieldState& field = volume.fields[i];
-    const Particle& particle = *field.medium.particle;
-    phases.push_back(&field.tables->own.transport(particle));
-    mixed.insert(mixed.end(), {phases[i], &field.tables->own.turned(particle)});
-    parts.insert(parts.end(), {weights[i] * (1 - turned), weights[i] * turned});
+    phases.push_back(&field.tables->own.transport(*field.medium.particle));
     media.peak += weights[i] * meanAlbedo(field) * phases[i]->peak;
   }
   // Of a phase function that is all peak something is left to divide by.
   media.peak = std::min(media.peak, 0.99);
+  std::vector<const TransportPhase*> mixed;  // of `parts` each
+  std::vector<double> parts;
+  for (uint32_t i = 0; i < volume.fieldCount; ++i) {
+    const FieldState& field = volume.fields[i];
+    const double turned = stepOfTurned(turnedOf(media.turned, phases[i]->peak, media.peak));
+    mixed.insert(mixed.end(), {phases[i], &field.tables->own.turned(*field.medium.particle)});
+    parts.insert(parts.end(), {weights[i] * (1 - turned), weights[i] * turned});
+  }
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
     const double f = phases[i]->peak;
     const TransportPhase& many = *mixed[2 * i + 1];
+    const double turned = weights[i] > 0 ? parts[2 * i + 1] / weights[i] : media.turned;
     const double albedo = meanAlbedo(volume.fields[i]);
     const double fourth = std::lerp(phases[i]->fourth, many.fourth, turned);
     media.fieldFourth[static_cast<int>(i)] =
@@ -362,10 +380,11 @@ TransportMedia transportMedia(const VolumeState& volume) {
     }
   }
   fillFineKernel(volume, phases, weights, media);
-  const bool shared = volume.fieldCount == 1 && turned == 1;
-  const TransportPairs own = shared ? TransportPairs{} : transportPairs(mixed, parts);
+  const bool alone = volume.fieldCount == 1;
+  const TransportPairs several = alone ? TransportPairs{} : transportPairs(mixed, parts);
   const FieldState& first = volume.fields[0];
-  const TransportPairs& pairs = shared ? first.tables->own.pairs(*first.medium.particle) : own;
+  const TransportPairs& pairs =
+      alone ? first.tables->own.pairs(*first.medium.particle, parts[1]) : several;
   for (size_t l = 0; l < TRANSPORT_MOMENTS; ++l) {
     for (size_t k = 0; k < TRANSPORT_FIRST; ++k) {
       const auto& once = pairs.first[l][k];
@@ -380,24 +399,24 @@ TransportMedia transportMedia(const VolumeState& volume) {
 }
 
 double thinDepth(const VolumeState& volume) {
-  double extinction = 0;  // mean over the box, without the peak, 1/m
+  double extinction = 0;  // where light meets it, without the peak, 1/m
   for (uint32_t i = 0; i < volume.fieldCount; ++i) {
     const FieldState& field = volume.fields[i];
     if (field.external) {
       return UNKNOWN_DEPTH;
     }
-    const Particle& particle = *field.medium.particle;
-    const double peak = meanAlbedo(field) * field.tables->own.transport(particle).peak;
-    extinction += field.extinctionScale * field.medium.extinctionFactor() * field.mean * (1 - peak);
+    if (field.mean > 0) {
+      const Particle& particle = *field.medium.particle;
+      const double peak = meanAlbedo(field) * field.tables->own.transport(particle).peak;
+      extinction += field.extinctionScale * field.medium.extinctionFactor() * (1 - peak) *
+                    field.meanSquare / field.mean;
+    }
   }
   if (!(extinction > 0)) {
     return UNKNOWN_DEPTH;
   }
-  const FilledBox filled = filledBox(volume);
-  const glm::dvec3 extent = extentOf(volume, filled);
-  const glm::dvec3 part = filled.high - filled.low;
-  const double filledMean = extinction / std::max(part.x * part.y * part.z, 1e-300);
-  return std::min(filledMean * std::min({extent.x, extent.y, extent.z}), UNKNOWN_DEPTH);
+  const glm::dvec3 extent = extentOf(volume, filledBox(volume));
+  return std::min(extinction * std::min({extent.x, extent.y, extent.z}), UNKNOWN_DEPTH);
 }
 
 double turnedShare(const VolumeState& volume) {
@@ -407,7 +426,9 @@ double turnedShare(const VolumeState& volume) {
 double mediaChange(const VolumeState& volume) {
   const TransportMedia& media = *volume.transport;
   const double turned = turnedShare(volume);
-  double most = stepOfTurned(turned) == media.turned ? 0.0 : std::abs(turned - media.turned);
+  // Of one in which nothing is any more the media stay.
+  const bool same = stepOfTurned(turned) == media.turned || isEmpty(volume);
+  double most = same ? 0.0 : std::abs(turned - media.turned);
   if (volume.fieldCount == 1) {
     return most;
   }

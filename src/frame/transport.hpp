@@ -49,14 +49,17 @@ struct TransportMedia {
   std::vector<float> response;  // RGBA, see PAIR_TABLE_NODES
   // Of the fields in the extinction, by which all these are means; all 0: nothing was there yet.
   std::array<double, WLK_MAX_FIELDS> shares{};
-  // Of the turns by the peak that an endless medium would add between two others (turnedPhase).
+  // Of the turns by the peak that an endless medium would add between two others (turnedPhase), in
+  // steps of 1 / TURNED_STEPS.
   double turned = 1;
 };
 TransportMedia transportMedia(const VolumeState& volume);
 // The largest change of a field's share, or of the turns', since the volume's media were made.
 double mediaChange(const VolumeState& volume);
-// Mean optical depth, without the peak, across what is filled of the volume where that is thinnest;
-// UNKNOWN_DEPTH for engines' images and where nothing is.
+// Optical depth, without the peak, across what is filled of the volume where that is thinnest, of
+// the mean extinction that light meets (weighted by itself: gaps between clouds do not make them
+// thin, and uploads by parts leave it as it is); UNKNOWN_DEPTH for engines' images and where
+// nothing is.
 constexpr double UNKNOWN_DEPTH = 1e6;
 double thinDepth(const VolumeState& volume);
 // 1 - e^-thinDepth: in a thin layer light leaves before the peak has turned it as often as in an

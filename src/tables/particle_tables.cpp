@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tables/particle_tables.hpp"
 
-#include <span>
+#include <array>
+#include <cmath>
 
 namespace welkin {
 namespace {
@@ -45,15 +46,17 @@ const TransportPhase& ParticleTables::turned(const Particle& particle) {
   return *turned_;
 }
 
-const TransportPairs& ParticleTables::pairs(const Particle& particle) {
-  if (!pairs_) {
-    const TransportPhase* phase = &turned(particle);
-    constexpr double ALL = 1;
-    pairs_ = std::make_unique<const TransportPairs>(
-        transportPairs(std::span(&phase, 1), std::span(&ALL, 1)));
+const TransportPairs& ParticleTables::pairs(const Particle& particle, double turned) {
+  const auto step = static_cast<size_t>(std::lround(turned * TURNED_STEPS));
+  std::unique_ptr<const TransportPairs>& kept = pairs_[step];
+  if (!kept) {
+    const std::array phases = {&transport(particle), &this->turned(particle)};
+    const double part = static_cast<double>(step) / TURNED_STEPS;
+    const std::array weights = {1 - part, part};
+    kept = std::make_unique<const TransportPairs>(transportPairs(phases, weights));
     ++made_;
   }
-  return *pairs_;
+  return *kept;
 }
 
 }  // namespace welkin

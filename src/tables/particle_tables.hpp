@@ -16,14 +16,18 @@ namespace welkin {
 // blurred.
 constexpr uint32_t SCATTERING_FORMS = 3;
 
+// Of mixtures of a phase function and the same turned.
+constexpr size_t TURNED_STEPS = 16;
+
 class ParticleTables {
  public:
   // All of one object take the same particle. 10 to 500 ms the first time; 0.4 MB.
   const SourceRows& rows(const Particle& particle, uint32_t form);
   const TransportPhase& transport(const Particle& particle);  // 0.1 ms; 32 KB
   const TransportPhase& turned(const Particle& particle);     // turnedPhase: 1 to 50 ms; 32 KB
-  // Of a thick volume of these particles alone, turned. 14 ms; 14 KB.
-  const TransportPairs& pairs(const Particle& particle);
+  // Of a volume of these particles alone, of which a part turned, in steps of 1 / TURNED_STEPS. 14
+  // ms and 14 KB each.
+  const TransportPairs& pairs(const Particle& particle, double turned);
 
   // Tables made so far.
   uint32_t made() const { return made_; }
@@ -32,7 +36,7 @@ class ParticleTables {
   std::array<std::unique_ptr<const SourceRows>, SCATTERING_FORMS> rows_;
   std::unique_ptr<const TransportPhase> transport_;
   std::unique_ptr<const TransportPhase> turned_;
-  std::unique_ptr<const TransportPairs> pairs_;
+  std::array<std::unique_ptr<const TransportPairs>, TURNED_STEPS + 1> pairs_;
   uint32_t made_ = 0;
 };
 

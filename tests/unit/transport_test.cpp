@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // src/frame/transport: how many cells a layer has along its normal and its plane, and what share of
-// the peak's turns a volume gets, from the mean optical depth across it.
+// the peak's turns a volume gets, from the optical depth across it.
 #include "frame/transport.hpp"
 
 #include <gtest/gtest.h>
@@ -15,16 +15,20 @@ using namespace welkin;
 class Transport : public ::testing::Test {
  protected:
   Transport() {
-    ParticleParams params;
-    params.asymmetry = 0.85;
-    params.analytic = true;
     volume_.size = {16, 16, 16};
-    volume_.fieldCount = 1;
-    FieldState& field = volume_.fields[0];
-    field.medium = makeMedium(ParticleType::HenyeyGreenstein, params, {1, 1, 1});
-    field.tables = std::make_shared<MediumTables>();
-    peak_ = field.tables->own.transport(*field.medium.particle).peak;
+    peak_ = addField(0.85, 1);
     place(40, 1);
+  }
+
+  // The medium's peak.
+  double addField(double asymmetry, double albedo) {
+    ParticleParams params;
+    params.asymmetry = asymmetry;
+    params.analytic = true;
+    FieldState& field = volume_.fields[volume_.fieldCount++];
+    field.medium = makeMedium(ParticleType::HenyeyGreenstein, params, {albedo, albedo, albedo});
+    field.tables = std::make_shared<MediumTables>();
+    return field.tables->own.transport(*field.medium.particle).peak;
   }
 
   // A box `width` long, wide, and `height` high, y up.
@@ -35,11 +39,14 @@ class Transport : public ::testing::Test {
     height_ = height;
   }
 
-  // Mean optical depth over the height, the peak included; rows of voxels [0, rows) are filled.
-  void fill(double depth, uint32_t rows = 16) {
-    FieldState& field = volume_.fields[0];
+  // Optical depth of filled columns, the peak included; rows of voxels [0, rows) are filled, a part
+  // `cover` of them.
+  void fill(double depth, uint32_t rows = 16, double cover = 1, size_t index = 0) {
+    FieldState& field = volume_.fields[index];
+    const double value = depth / height_ * 16 / rows;
     field.extinctionScale = 1;
-    field.mean = depth / height_;
+    field.mean = cover * rows / 16 * value;
+    field.meanSquare = field.mean * value;
     field.filled.first = {0, 0, 0};
     field.filled.end = {16, rows, 16};
   }
@@ -53,8 +60,11 @@ TEST_F(Transport, ThinDepthIsThatOfColumnsWithoutThePeak) {
   fill(3);
   EXPECT_NEAR(thinDepth(volume_), 3 * (1 - peak_), 1e-6);
   EXPECT_NEAR(turnedShare(volume_), 1 - std::exp(-3 * (1 - peak_)), 1e-6);
-  // The same columns in the lower quarter of the box.
+  // The same columns in the lower quarter of the box; of a broken field those of its clouds.
   fill(3, 4);
+  volume_.fields[0].filled.end[1] = 4;
+  EXPECT_NEAR(thinDepth(volume_), 3 * (1 - peak_) * 4.5 / 4, 1e-6) << "and half a voxel's filter";
+  fill(3, 16, 0.05);
   EXPECT_NEAR(thinDepth(volume_), 3 * (1 - peak_), 1e-6);
   // The shortest edge counts, whichever it is.
   place(1, 40);
@@ -94,6 +104,10 @@ TEST_F(Transport, LayersHaveTheCellsThatTheirDepthAsksFor) {
   }
   fill(1);
   EXPECT_EQ(transportShape(volume_, 32).cells, (std::array<uint32_t, 3>{48, 8, 48}));
+  // Half a cell has no more voxels than are read of it.
+  volume_.size = {16, 200, 16};
+  volume_.fields[0].filled.end[1] = 200;
+  EXPECT_EQ(transportShape(volume_, 32).cells, (std::array<uint32_t, 3>{40, 16, 40}));
 }
 
 // Only layers: elsewhere cells are cubes, or as many along each axis.
@@ -111,14 +125,47 @@ TEST_F(Transport, MediaStayWhereTheDepthHardlyChanges) {
   volume_.transport = std::make_shared<const TransportMedia>(transportMedia(volume_));
   EXPECT_EQ(mediaChange(volume_), 0);
   fill(1.52);
-  EXPECT_LT(mediaChange(volume_), 0.05);
+  EXPECT_EQ(mediaChange(volume_), 0) << "within a step";
   fill(3);
   EXPECT_GT(mediaChange(volume_), 0.05);
+  volume_.fields[0].mean = volume_.fields[0].meanSquare = 0;
+  EXPECT_EQ(mediaChange(volume_), 0) << "nothing is there any more";
   // A thin layer's light has been turned less often.
   fill(0.1);
   const TransportMedia thin = transportMedia(volume_);
   EXPECT_LT(thin.turned, 0.1);
   EXPECT_GT(thin.fieldMoments[0][2], volume_.transport->fieldMoments[0][2]);
+}
+
+// Between two turns by the rest the peaks of all fields turn light (F / (1 - F) times in the mean,
+// F being albedo times energy of the peaks in the mixture), not each field's own as often as it
+// would alone.
+TEST_F(Transport, AbsorptionAndFieldsWithoutAPeakLeaveFewerTurns) {
+  const double own = peak_ / (1 - peak_);
+  const auto shapeOf = [&](double albedo, size_t fields) {
+    volume_.fieldCount = 0;
+    addField(0.85, albedo);
+    fill(1e3);
+    if (fields > 1) {
+      addField(0, 1);
+      fill(1e3, 16, 1, 1);
+    }
+    const TransportMedia media = transportMedia(volume_);
+    // The rest's moment of degree 2 over albedo, by undoing what fieldMoments does.
+    const double moment = media.fieldMoments[0][2] * (1 - media.peak) + media.peak;
+    return (moment / albedo - peak_) / (1 - peak_);
+  };
+  ParticleTables& tables = volume_.fields[0].tables->own;
+  const Particle& particle = *volume_.fields[0].medium.particle;
+  const double sharp = tables.transport(particle).moments[2];
+  const double turned = tables.turned(particle).moments[2];
+  const auto partOf = [&](double moment) { return (moment - sharp) / (turned - sharp); };
+  constexpr double STEP = 0.5 / 16 + 1e-3;
+  EXPECT_NEAR(partOf(shapeOf(1, 1)), 1, 1e-3);
+  const double dark = 0.5 * peak_ / (1 - 0.5 * peak_);
+  EXPECT_NEAR(partOf(shapeOf(0.5, 1)), dark / own, STEP);
+  const double half = 0.5 * peak_ / (1 - 0.5 * peak_);
+  EXPECT_NEAR(partOf(shapeOf(1, 2)), half / own, STEP);
 }
 
 }  // namespace
