@@ -5,22 +5,10 @@
 
 #include "frame/plan.hpp"
 #include "frame/scene.hpp"
+#include "frame/transport_shape.hpp"
 #include "frame/uniforms.hpp"
 
 namespace welkin {
-
-// Where a volume's grid lies: around all density, in cells that are cubes where the volume is not
-// flat, multiples of 8 along each axis.
-struct TransportShape {
-  std::array<uint32_t, 3> cells{};
-  glm::dvec3 origin{0};  // in the unit box
-  glm::dvec3 size{1};
-  int thinAxis = -1;   // of a flat one
-  bool layer = false;  // much wider than high, see transport_layer.hpp
-};
-// At most edge^3 cells, edge a multiple of 8, and transportImageEdge(edge) along an axis.
-TransportShape transportShape(const VolumeState& volume, uint32_t edge);
-uint32_t transportImageEdge(uint32_t edge);
 
 // Cells per level, and bytes of the lists.
 struct TransportSizes {
@@ -56,15 +44,6 @@ struct TransportMedia {
 TransportMedia transportMedia(const VolumeState& volume);
 // The largest change of a field's share, or of the turns', since the volume's media were made.
 double mediaChange(const VolumeState& volume);
-// Optical depth, without the peak, across what is filled of the volume where that is thinnest, of
-// the mean extinction that light meets (weighted by itself: gaps between clouds do not make them
-// thin, and uploads by parts leave it as it is); UNKNOWN_DEPTH for engines' images and where
-// nothing is.
-constexpr double UNKNOWN_DEPTH = 1e6;
-double thinDepth(const VolumeState& volume);
-// 1 - e^-thinDepth: in a thin layer light leaves before the peak has turned it as often as in an
-// endless one.
-double turnedShare(const VolumeState& volume);
 // Mean over the colours of a function of the pair table at a scattering angle.
 double transportPair(const TransportMedia& media, size_t function, double angle);
 
