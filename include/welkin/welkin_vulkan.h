@@ -181,8 +181,8 @@ WLK_API WlkResult wlkVulkanForgetImage(WlkContext context, VkImage image);
 /** Records pending uploads. Outside a render pass, once per frame, before the views. After a change
  *  of planet, sky or fog, or of the shares of a volume's fields or its optical depth, without
  *  wlkPrepare it also solves for some of the new light, see there. Record it even in frames that
- * draw no view, or uploads wait. [C] Errors: WRONG_STATE without wlkBeginFrame; OUT_OF_* after such
- * a change. */
+ *  draw no view, or uploads wait. [C] Errors: WRONG_STATE without wlkBeginFrame; OUT_OF_* after
+ *  such a change. */
 WLK_API WlkResult wlkVulkanCmdUpdate(WlkContext context, VkCommandBuffer commandBuffer);
 
 /** Records a view. Outside a render pass. Afterwards the command buffer's pipelines, descriptor

@@ -24,7 +24,7 @@ class ParticleTables {
   // All of one object take the same particle. 10 to 500 ms the first time; 0.4 MB.
   const SourceRows& rows(const Particle& particle, uint32_t form);
   const TransportPhase& transport(const Particle& particle);  // 0.1 ms; 32 KB
-  const TransportPhase& turned(const Particle& particle);     // turnedPhase: 1 to 50 ms; 32 KB
+  const TransportPhase& turned(const Particle& particle);     // turnedPhase: 0.3 to 40 ms; 32 KB
   // Of a volume of these particles alone, of which a part turned, in steps of 1 / TURNED_STEPS. 14
   // ms and 14 KB each.
   const TransportPairs& pairs(const Particle& particle, double turned);

@@ -95,11 +95,11 @@ TEST_F(Layer, SeenFromAfarIsThatOfDiscreteOrdinates) {
   EXPECT_LT(worst(32, 100e3), 0.05);
 }
 
-// Light that goes on towards the sun's side, below a layer and a low sun: without Y(4, 1) it is
-// 6 % too bright.
+// Light that goes on towards the sun's side, below a layer and a low sun: without what cells show
+// of Y(4, 1) it is 5.2 % too bright. 4.3 % was measured, above, where cells are wide.
 TEST_F(Layer, OfALowSunIsDimTowardsTheSunFromBelow) {
   light(75, WLK_SCATTERING_ALL_ORDERS);
-  EXPECT_LT(worst(4.5, 100e3), 0.055);
+  EXPECT_LT(worst(4.5, 100e3), 0.047);
 }
 
 // An eye close to cells that are wide sees each ray's direction, not that of the cells' middles.
