@@ -8,6 +8,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 // From a level that is there, not from triangles.
 layout(constant_id = 3) const bool FROM_LEVEL = false;
+layout(constant_id = 7) const bool DETAIL = true;
 #include "surface_mesh.glsl"
 #include "surface_shell.glsl"
 #include "../interface/slices.glsl"
@@ -67,7 +68,7 @@ MapTexel fromTriangles(uvec2 texel, uint size) {
     inside.back = float(cover.back) * metre;
     inside.chord = float(cover.chord) * metre;
     float through = inside.chord;
-    if (surface.detail.x > 0.0f) {
+    if (DETAIL) {
       ShellRay ray = shellRay((vec2(texel) + 0.5f) / float(size));
 #ifdef SHELL_NOISE_COMPUTED
       inside = shellLit(inside, ray);

@@ -14,6 +14,8 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 // Clear air: all of its light comes from the table.
 layout(constant_id = 6) const bool ALL_LIGHT = false;
+// Detail under the faces: drivers such as lavapipe run every branch.
+layout(constant_id = 7) const bool DETAIL = true;
 layout(constant_id = 8) const bool MULTIPLE_ENABLED = true;
 // Light of sky and ground.
 layout(constant_id = 9) const bool AMBIENT = false;
@@ -170,7 +172,7 @@ vec3 ambientAt(vec3 p, vec3 direction, ShellRay shell, float distance_) {
   uint below = at.first + uint(surface.upMap.z);
   float shade = shadeOf(at, upDepths[at.first], upDepths[at.first + 1u], upDepths[below],
                         upDepths[below + 1u]);
-  if (surface.detail.x > 0.0f) {
+  if (DETAIL) {
     float lost = shellShadeLost(shellRayTo(shell, distance_, -surface.upZ.xyz), shade);
     shade -= lost;
     at.depth -= lost;
@@ -226,7 +228,7 @@ void main() {
     ShellMarch march;
     march.filled = inside.chord;
     march.lost = 0.0f;
-    if (surface.detail.x > 0.0f) {
+    if (DETAIL) {
       shell = shellRay(inside, direction);
       float most = chordDepth(SURFACE_SAMPLE, surface.optics.z * inside.chord);
       march = shellMarch(inside, shell, surface.optics.y, most / max(surface.optics.z, 1.0e-20f));
@@ -256,7 +258,7 @@ void main() {
     // What detail takes from the way to the light at the first point and at the one whose light
     // stands for all; between them linear.
     vec2 lost = vec2(0.0f);
-    if (LIGHT_ENABLED && surface.detail.x > 0.0f) {
+    if (LIGHT_ENABLED && DETAIL) {
       vec3 toLight = frame.lights[0].direction.xyz;
       lost.x = shellShadeLost(shellRayTo(shell, near, toLight), shadeNear);
       lost.y =
@@ -268,7 +270,7 @@ void main() {
       float length_ = max(end - begin, 0.0f);
       AirAt air = airAt(nodes, pointAt(inside, first_ + begin + 0.5f * length_));
 #ifdef SHELL_NOISE_COMPUTED
-      if (surface.detail.x > 0.0f) {
+      if (DETAIL) {
         length_ = shellStretch(inside, shell, begin, length_);
       }
       float passed = through * exp(-surface.optics.y * length_);

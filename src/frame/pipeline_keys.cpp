@@ -59,15 +59,17 @@ vk::PipelineKey surfaceShellKey(bool means) {
   return key;
 }
 
-vk::PipelineKey surfaceMapKey(bool fromLevel) {
+vk::PipelineKey surfaceMapKey(bool fromLevel, bool detail) {
   vk::PipelineKey key{vk::Pass::SurfaceMap, VK_FORMAT_UNDEFINED, {}};
   key.constants[3] = fromLevel;
+  key.constants[7] = detail;
   return key;
 }
 
 vk::PipelineKey surfaceShadeKey(const SurfaceVariant& v, const SliceQuality& quality) {
   vk::PipelineKey key{vk::Pass::SurfaceShade, VK_FORMAT_UNDEFINED, {v.air, v.fog, v.light}};
   key.constants[6] = v.allLight;
+  key.constants[7] = v.detail;
   key.constants[8] = quality.multipleSky;
   key.constants[9] = v.ambient;
   key.constants[14] = v.distance;
@@ -131,17 +133,21 @@ static void prepareSurfaces(vk::Pipelines& pipelines, const ViewState& view,
   pipelines.prepare(surfaceFacesKey());
   pipelines.prepare(surfaceCellsKey());
   pipelines.prepare(surfaceCoverKey(false, false));
+  pipelines.prepare(surfaceMapKey(true, false));
   for (const bool either : {false, true}) {
     pipelines.prepare(surfaceCoverKey(true, either));
-    pipelines.prepare(surfaceMapKey(either));
+    pipelines.prepare(surfaceMapKey(false, either));
     pipelines.prepare(surfaceShellKey(either));
   }
   for (const bool distance : {false, view.volumeDistance}) {
     for (const bool light : {false, usual.light}) {
       for (const bool all : {false, light && usual.air > 0 && !usual.fog && quality.multipleSky}) {
         for (const bool ambient : {false, usual.ambient}) {
-          pipelines.prepare(
-              surfaceShadeKey({usual.air, usual.fog, light, all, distance, ambient}, quality));
+          // Detail comes and goes without another wlkPrepare.
+          for (const bool detail : {false, true}) {
+            pipelines.prepare(surfaceShadeKey(
+                {usual.air, usual.fog, light, all, distance, ambient, detail}, quality));
+          }
         }
       }
     }
@@ -159,7 +165,7 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
   if (features.surfaces > 0) {
     const bool ambient = features.ambient && quality.ambientCells > 0;
     prepareSurfaces(pipelines, view, quality,
-                    {air, fog, features.lights > 0, false, false, ambient});
+                    {air, fog, features.lights > 0, false, false, ambient, false});
   }
   for (uint32_t lights = 0; lights <= features.lights; ++lights) {
     for (const bool depth : {false, true}) {

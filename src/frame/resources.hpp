@@ -73,13 +73,13 @@ struct EyeVariant {
 };
 struct SurfaceVariant {
   uint32_t air;  // Plan::airKind
-  bool fog, light, allLight, distance, ambient;
+  bool fog, light, allLight, distance, ambient, detail;
 };
 vk::PipelineKey surfaceCoverKey(bool view, bool depth);
 vk::PipelineKey surfaceFacesKey();
 vk::PipelineKey surfaceCellsKey();
 vk::PipelineKey surfaceShellKey(bool means);
-vk::PipelineKey surfaceMapKey(bool fromLevel);
+vk::PipelineKey surfaceMapKey(bool fromLevel, bool detail);
 vk::PipelineKey surfaceShadeKey(const SurfaceVariant& variant, const SliceQuality& quality);
 vk::PipelineKey distanceKey();
 // What pixels between rays take on.

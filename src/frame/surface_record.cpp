@@ -19,12 +19,17 @@ using interface_::SurfaceUniforms;
 
 constexpr uint32_t MAP_LEVELS = 3;  // above the one that a dispatch of the map's pass begins at
 
+bool isDetailed(const FrameCommands& c, const PlannedVolume& planned) {
+  return c.in.surfaces[planned.index].state->detail.depth > 0;
+}
+
 vk::PipelineKey shadeKeyOf(const FrameCommands& c, const ViewTargets& targets,
                            const PlannedVolume& planned) {
   const Plan& plan = c.view.plan;
-  return surfaceShadeKey({plan.airKind(), plan.fog, planned.lit, plan.allLight,
-                          static_cast<bool>(targets.volumeDistance), planned.ambient},
-                         c.quality);
+  return surfaceShadeKey(
+      {plan.airKind(), plan.fog, planned.lit, plan.allLight,
+       static_cast<bool>(targets.volumeDistance), planned.ambient, isDetailed(c, planned)},
+      c.quality);
 }
 
 class SurfaceRecorder {
@@ -139,7 +144,8 @@ class SurfaceRecorder {
     for (uint32_t size = edge; size > 1; size >>= MAP_LEVELS) {
       push.lightSize = size;
       c_.orderShaders();
-      c_.dispatch(c_.find(surfaceMapKey(fromLevel)), c_.pipelines.surfaceLayout(), &push,
+      const bool detail = !fromLevel && surface_.detail.depth > 0;
+      c_.dispatch(c_.find(surfaceMapKey(fromLevel, detail)), c_.pipelines.surfaceLayout(), &push,
                   groups(size), groups(size), stats, index_);
       fromLevel = true;
       for (uint32_t level = 0; level < MAP_LEVELS; ++level) {
@@ -304,8 +310,8 @@ void findSurfacePipelines(const FrameCommands& commands, const ViewTargets& targ
   if (planned.lit || planned.ambient) {
     commands.find(surfaceCoverKey(false, false));
     commands.find(surfaceFacesKey());
-    commands.find(surfaceMapKey(false));
-    commands.find(surfaceMapKey(true));
+    commands.find(surfaceMapKey(false, isDetailed(commands, planned)));
+    commands.find(surfaceMapKey(true, false));
     commands.find(surfaceCellsKey());
     commands.find(surfaceShellKey(false));
     commands.find(surfaceShellKey(true));

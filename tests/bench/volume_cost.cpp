@@ -150,7 +150,7 @@ int main(int argc, char** argv) {
                  "processes with one and with two threads each, default 3; 0: threads not compared")
       ->check(CLI::Range(0, 100));
   app.add_option("--case", options.volume.only, "the only one to run");
-  app.add_option("--size", options.volume.size, "pixels along the picture's edge, default 512")
+  app.add_option("--size", options.volume.size, "pixels along the picture's edge, default 1024")
       ->check(CLI::Range(64, 4096));
   app.add_option("--truth", options.volume.truth, "compared pixels along the edge, default 32")
       ->check(CLI::Range(2, 512));

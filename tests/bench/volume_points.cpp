@@ -62,7 +62,11 @@ std::vector<double> commonErrors(const std::vector<VolumeRow>& rows) {
   if (!(low < high)) {
     return {};
   }
-  return {high, std::sqrt(low * high), low};
+  const double middle = std::sqrt(low * high);
+  if (COARSEST_PICTURE > middle && COARSEST_PICTURE < high) {
+    return {high, COARSEST_PICTURE, middle, low};
+  }
+  return {high, middle, low};
 }
 
 Fit fitLine(const std::vector<double>& x, const std::vector<double>& y) {

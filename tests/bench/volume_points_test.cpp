@@ -51,10 +51,16 @@ TEST(VolumePoints, AreComparedWhereBothMethodsReach) {
   rows.push_back(point("slicer", 5, 4));
   rows.push_back(point("slicer", 50, 0.04));
   const std::vector<double> errors = commonErrors(rows);
-  ASSERT_EQ(errors.size(), 3u);
+  ASSERT_EQ(errors.size(), 4u);
   EXPECT_EQ(errors[0], 1);
-  EXPECT_NEAR(errors[1], 0.2, ROUNDING);
-  EXPECT_EQ(errors[2], 0.04);
+  EXPECT_EQ(errors[1], COARSEST_PICTURE);
+  EXPECT_NEAR(errors[2], 0.2, ROUNDING);
+  EXPECT_EQ(errors[3], 0.04);
+  rows.push_back(point("slicer", 80, 0.0001));  // a middle of 0.1
+  rows.push_back(point("welkin", 1, 0.4));      // now the coarsest of both
+  rows.push_back(point("welkin", 1, 0.39));
+  EXPECT_LT(commonErrors(rows).front(), COARSEST_PICTURE);
+  EXPECT_EQ(commonErrors(rows).size(), 3u);
   rows = powerLaw();
   rows.push_back(point("slicer", 5, 0.004));
   rows.push_back(point("slicer", 2, 0.008));

@@ -198,7 +198,6 @@ Ordered rowJson(const VolumeRow& row) {
 }  // namespace
 
 std::vector<Goal> goalsOf(const VolumeResults& results) {
-  constexpr double FINE = 1.0 / 7;  // at larger errors no more than an impression of the cloud
   // Worst of all cases; of times and of CPU times.
   double rate = -1;
   double cpuRate = -1;
@@ -213,17 +212,18 @@ std::vector<Goal> goalsOf(const VolumeResults& results) {
       cpuRate = cpuRate < 0 ? one.cpu : std::min(cpuRate, one.cpu);
     }
     for (const EqualError& at : equalErrors(study)) {
-      std::array<double, 2>& worst = study.one.occupied == 1 ? full
-                                     : at.error < FINE       ? sparse
-                                                             : coarse;
+      std::array<double, 2>& worst = study.one.occupied == 1        ? full
+                                     : at.error <= COARSEST_PICTURE ? sparse
+                                                                    : coarse;
       worst = {std::max(worst[0], at.ratio), std::max(worst[1], at.cpuRatio)};
     }
   }
   return {{"sample rate over the bare loop's", WANTED_RATE, true, rate, cpuRate},
           {"time over the slicer's at equal error, full", WANTED_FULL, false, full[0], full[1]},
-          {"the same, 20 % of bricks, errors of a seventh or less", WANTED_SPARSE, false, sparse[0],
+          {"the same, 20 % of bricks, errors of a half or less", WANTED_SPARSE, false, sparse[0],
            sparse[1]},
-          {"the same, 20 % of bricks, larger errors", WANTED_SPARSE, false, coarse[0], coarse[1]},
+          {"the same, 20 % of bricks, errors that leave no picture", WANTED_SPARSE, false,
+           coarse[0], coarse[1]},
           {"speed-up from two cores, sky above, cloud below", WANTED_SPEED_UP, true,
            speedUp(results), balance(results)}};
 }
