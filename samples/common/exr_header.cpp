@@ -27,6 +27,77 @@ constexpr uint8_t LAST_COMPRESSION = 3;  // NONE 0, RLE 1, ZIPS 2, ZIP 3
 constexpr uint64_t MAX_EXPANSION = 1032;
 constexpr uint64_t LEAST_PIXEL = 2;
 
+// The library reads attributes of the types that it knows by what these hold, whatever size the
+// file tells. Where the two differ it goes on in the middle of an attribute, and takes room of up
+// to 2 GiB for what seems to be the next one.
+struct TypeSize {
+  const char* type;
+  uint32_t size;
+};
+constexpr TypeSize SIZES[] = {
+    {"box2f", 16},
+    {"box2i", 16},
+    {"chromaticities", 32},
+    {"compression", 1},
+    {"double", 8},
+    {"envmap", 1},
+    {"float", 4},
+    {"deepImageState", 1},
+    {"int", 4},
+    {"keycode", 28},
+    {"lineOrder", 1},
+    {"m33d", 72},
+    {"m33f", 36},
+    {"m44d", 128},
+    {"m44f", 64},
+    {"rational", 8},
+    {"tiledesc", 9},
+    {"timecode", 8},
+    {"v2d", 16},
+    {"v2f", 8},
+    {"v2i", 8},
+    {"v3d", 24},
+    {"v3f", 12},
+    {"v3i", 12},
+};
+
+uint32_t numberAt(const char* data, uint64_t at) {
+  uint32_t result = 0;
+  std::memcpy(&result, data + at, sizeof result);
+  return result;
+}
+
+// Bytes that the library reads of an attribute, more than `size` where it would read on behind it.
+uint64_t bytesRead(const std::string& type, const char* data, uint64_t size) {
+  for (const TypeSize& known : SIZES) {
+    if (type == known.type) {
+      return known.size;
+    }
+  }
+  uint64_t at = 0;
+  if (type == "chlist") {
+    constexpr uint64_t CHANNEL = 16;  // behind its name
+    while (at < size && data[at] != '\0') {
+      const size_t length = strnlen(data + at, size - at);
+      at += length > LONGEST_NAME ? size : length + 1 + CHANNEL;
+    }
+    return at + 1;
+  }
+  if (type == "stringvector") {
+    while (at + sizeof(uint32_t) <= size) {
+      at += sizeof(uint32_t) + numberAt(data, at);
+    }
+    return at;
+  }
+  if (type == "preview") {
+    constexpr uint64_t EDGES = 8;
+    return size < EDGES
+               ? EDGES
+               : EDGES + 4 * uint64_t{numberAt(data, 0)} * numberAt(data, sizeof(uint32_t));
+  }
+  return type == "floatvector" ? size / sizeof(float) * sizeof(float) : size;
+}
+
 class HeaderReader {
  public:
   HeaderReader(std::vector<char> bytes, std::string file)
@@ -117,6 +188,11 @@ ExrWindow checkExrHeader(const std::filesystem::path& path) {
     const std::string type = header.name();
     const auto size = header.value<uint32_t>();
     const char* data = header.take(size);
+    if (bytesRead(type, data, size) != size) {
+      throw InputError(
+          file, name,
+          "expected a value of type " + type + ", not of " + std::to_string(size) + " bytes");
+    }
     if (name == "dataWindow" && type == "box2i" && size == sizeof *window && !window) {
       std::memcpy(window.emplace().data(), data, size);
     } else if (name == "compression" && type == "compression" && size == 1 && !compression) {
