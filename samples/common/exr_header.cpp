@@ -4,6 +4,7 @@
 // deep and multi-part files and in the lossy decoders: none of them is reached.
 #include "common/exr_header.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <fstream>
@@ -91,9 +92,13 @@ uint64_t bytesRead(const std::string& type, const char* data, uint64_t size) {
   }
   if (type == "preview") {
     constexpr uint64_t EDGES = 8;
-    return size < EDGES
-               ? EDGES
-               : EDGES + 4 * uint64_t{numberAt(data, 0)} * numberAt(data, sizeof(uint32_t));
+    if (size < EDGES) {
+      return EDGES;
+    }
+    // Larger edges do not fit a header either way.
+    const uint64_t width = std::min<uint64_t>(numberAt(data, 0), MAX_HEADER);
+    const uint64_t height = std::min<uint64_t>(numberAt(data, sizeof(uint32_t)), MAX_HEADER);
+    return EDGES + 4 * width * height;
   }
   return type == "floatvector" ? size / sizeof(float) * sizeof(float) : size;
 }

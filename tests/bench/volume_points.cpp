@@ -62,11 +62,12 @@ std::vector<double> commonErrors(const std::vector<VolumeRow>& rows) {
   if (!(low < high)) {
     return {};
   }
-  const double middle = std::sqrt(low * high);
-  if (COARSEST_PICTURE > middle && COARSEST_PICTURE < high) {
-    return {high, COARSEST_PICTURE, middle, low};
+  std::vector<double> errors{high, std::sqrt(low * high), low};
+  if (low < COARSEST_PICTURE && COARSEST_PICTURE < high) {
+    errors.push_back(COARSEST_PICTURE);
+    std::sort(errors.rbegin(), errors.rend());
   }
-  return {high, middle, low};
+  return errors;
 }
 
 Fit fitLine(const std::vector<double>& x, const std::vector<double>& y) {
