@@ -19,17 +19,17 @@ using interface_::SurfaceUniforms;
 
 constexpr uint32_t MAP_LEVELS = 3;  // above the one that a dispatch of the map's pass begins at
 
-bool isDetailed(const FrameCommands& c, const PlannedVolume& planned) {
-  return c.in.surfaces[planned.index].state->detail.depth > 0;
+bool isDetailed(const SurfaceState& surface) {
+  return surface.detail.depth > 0;
 }
 
 vk::PipelineKey shadeKeyOf(const FrameCommands& c, const ViewTargets& targets,
                            const PlannedVolume& planned) {
   const Plan& plan = c.view.plan;
-  return surfaceShadeKey(
-      {plan.airKind(), plan.fog, planned.lit, plan.allLight,
-       static_cast<bool>(targets.volumeDistance), planned.ambient, isDetailed(c, planned)},
-      c.quality);
+  return surfaceShadeKey({plan.airKind(), plan.fog, planned.lit, plan.allLight,
+                          static_cast<bool>(targets.volumeDistance), planned.ambient,
+                          isDetailed(*c.in.surfaces[planned.index].state)},
+                         c.quality);
 }
 
 class SurfaceRecorder {
@@ -56,7 +56,7 @@ class SurfaceRecorder {
         c_.firstUse(up_->columns);
         c_.firstUse(up_->faces);
       }
-      if (surface_.detail.depth > 0) {
+      if (isDetailed(surface_)) {
         c_.firstUse(surface_.shell.depth);
         recordShell(light);
       }
@@ -144,7 +144,7 @@ class SurfaceRecorder {
     for (uint32_t size = edge; size > 1; size >>= MAP_LEVELS) {
       push.lightSize = size;
       c_.orderShaders();
-      const bool detail = !fromLevel && surface_.detail.depth > 0;
+      const bool detail = !fromLevel && isDetailed(surface_);
       c_.dispatch(c_.find(surfaceMapKey(fromLevel, detail)), c_.pipelines.surfaceLayout(), &push,
                   groups(size), groups(size), stats, index_);
       fromLevel = true;
@@ -276,7 +276,7 @@ class SurfaceRecorder {
     b.image(set, vk::BIND_SURFACE_CURVES, c_.in.surfaceTables->curves.view(), c_.pipelines.linear(),
             READ);
     const SurfaceTables& tables = *c_.in.surfaceTables;
-    const bool detailed = surface_.detail.depth > 0;
+    const bool detailed = isDetailed(surface_);
     storage(vk::BIND_SURFACE_CELLS, detailed ? tables.cells : r.surfaceFaces);
     b.image(set, vk::BIND_SURFACE_NOISE, detailed ? tables.noise.view() : tables.source.view(),
             c_.pipelines.repeat(), READ);
@@ -310,7 +310,7 @@ void findSurfacePipelines(const FrameCommands& commands, const ViewTargets& targ
   if (planned.lit || planned.ambient) {
     commands.find(surfaceCoverKey(false, false));
     commands.find(surfaceFacesKey());
-    commands.find(surfaceMapKey(false, isDetailed(commands, planned)));
+    commands.find(surfaceMapKey(false, isDetailed(*surface.state)));
     commands.find(surfaceMapKey(true, false));
     commands.find(surfaceCellsKey());
     commands.find(surfaceShellKey(false));

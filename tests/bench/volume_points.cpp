@@ -63,8 +63,8 @@ std::vector<double> commonErrors(const std::vector<VolumeRow>& rows) {
     return {};
   }
   std::vector<double> errors{high, std::sqrt(low * high), low};
-  if (low < COARSEST_PICTURE && COARSEST_PICTURE < high) {
-    errors.push_back(COARSEST_PICTURE);
+  if (low < DIVIDING_ERROR && DIVIDING_ERROR < high) {
+    errors.push_back(DIVIDING_ERROR);
     std::sort(errors.rbegin(), errors.rend());
   }
   return errors;

@@ -29,10 +29,11 @@ struct VolumeRow {
 // negative where the front does not reach.
 double timeAtError(const std::vector<VolumeRow>& rows, const std::string& method, double error,
                    double VolumeRow::*time);
-// RMS of the difference over the truth's mean from which on a picture shows no cloud any more.
-constexpr double COARSEST_PICTURE = 0.5;
+// RMS of the difference over the truth's mean by which reports tell smaller errors from larger
+// ones.
+constexpr double DIVIDING_ERROR = 0.5;
 // Errors that both methods reach, largest first: the ends of the common range, its middle in
-// logarithms, and COARSEST_PICTURE where it lies within.
+// logarithms, and DIVIDING_ERROR where it lies within.
 std::vector<double> commonErrors(const std::vector<VolumeRow>& rows);
 
 // value = offset + slope x by least squares, the part of the variance it explains, and the slope of

@@ -53,14 +53,17 @@ TEST(VolumePoints, AreComparedWhereBothMethodsReach) {
   const std::vector<double> errors = commonErrors(rows);
   ASSERT_EQ(errors.size(), 4u);
   EXPECT_EQ(errors[0], 1);
-  EXPECT_EQ(errors[1], COARSEST_PICTURE);
+  EXPECT_EQ(errors[1], DIVIDING_ERROR);
   EXPECT_NEAR(errors[2], 0.2, ROUNDING);
   EXPECT_EQ(errors[3], 0.04);
-  rows.push_back(point("slicer", 80, 0.0001));  // a middle of 0.1
-  rows.push_back(point("welkin", 1, 0.4));      // now the coarsest of both
-  rows.push_back(point("welkin", 1, 0.39));
-  EXPECT_LT(commonErrors(rows).front(), COARSEST_PICTURE);
+  rows.push_back(point("welkin", 1, 0.39));  // beats all that are coarser
+  EXPECT_LT(commonErrors(rows).front(), DIVIDING_ERROR);
   EXPECT_EQ(commonErrors(rows).size(), 3u);
+  // A middle of 0.9.
+  rows = {point("welkin", 1, 4), point("welkin", 9, 0.2), point("slicer", 1, 4),
+          point("slicer", 9, 0.2)};
+  ASSERT_EQ(commonErrors(rows).size(), 4u);
+  EXPECT_EQ(commonErrors(rows)[2], DIVIDING_ERROR);
   rows = powerLaw();
   rows.push_back(point("slicer", 5, 0.004));
   rows.push_back(point("slicer", 2, 0.008));

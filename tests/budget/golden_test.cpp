@@ -161,7 +161,7 @@ TEST_P(GoldenBudget, IsExactAtEveryLevel) {
     options.level = level;
     options.volumeResolution = WLK_VOLUME_RESOLUTION_DEFAULT;
     options.ambient = true;
-    options.validation = false;  // which the frames of the other tests have
+    options.validation = false;  // frames of other tests have it
     options.allocator = memory.callbacks();
     EngineScene scene(options);
     scene.submit = false;
