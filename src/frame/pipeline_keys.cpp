@@ -175,6 +175,7 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
             continue;
           }
           const bool open = lights > 0 && sky && !fog && quality.multipleSky;
+          // Light of sky and ground may be found to be dark with every other state.
           for (const bool ambient : {false, features.ambient && quality.ambientCells > 0}) {
             for (const bool all : {false, open}) {
               EyeVariant v{air, fog, lights > 0, depth, all, stored, ambient};

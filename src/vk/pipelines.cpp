@@ -36,6 +36,7 @@
 #include "transport_source_comp_spv.h"
 #include "transport_sweep_comp_spv.h"
 #include "transport_view_comp_spv.h"
+#include "vk/pruned_code.hpp"
 #include "volume_distance_comp_spv.h"
 
 namespace welkin::vk {
@@ -351,7 +352,7 @@ Pipelines::Compute Pipelines::computeOf(Pass pass) const {
 
 VkPipeline Pipelines::makeCompute(const PipelineKey& key) {
   const auto [code, layout] = computeOf(key.pass);
-  const Module module(device_, code);
+  const Module module(device_, prunedCode(code, key.constants, hostMemory()));
   const Specialization specialization(key);
   VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
   info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
@@ -369,7 +370,7 @@ VkPipeline Pipelines::makeCompute(const PipelineKey& key) {
 
 VkPipeline Pipelines::makeBlend(const PipelineKey& key) {
   const Module vertex(device_, composite_vert_spv);
-  const Module fragment(device_, composite_blend_frag_spv);
+  const Module fragment(device_, prunedCode(composite_blend_frag_spv, key.constants, hostMemory()));
   const Specialization specialization(key);
   std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
   for (auto& stage : stages) {

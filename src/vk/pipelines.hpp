@@ -225,6 +225,7 @@ class Pipelines {
   Compute computeOf(Pass pass) const;
   VkPipeline makeCompute(const PipelineKey& key);
   VkPipeline makeBlend(const PipelineKey& key);
+  std::pmr::memory_resource* hostMemory() const { return entries_.get_allocator().resource(); }
 
   struct Entry {
     PipelineKey key;

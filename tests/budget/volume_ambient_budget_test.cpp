@@ -102,6 +102,14 @@ TEST_F(VolumeAmbientBudget, GivenLightDoesNotDependOnTheSun) {
   expectComputed("another light");
 }
 
+TEST_F(VolumeAmbientBudget, IsDarkWithoutAnotherPrepare) {
+  setAmbient(WLK_AMBIENT_AUTOMATIC);
+  prepare();
+  expectComputed("the first frame");
+  setAmbient(WLK_AMBIENT_GIVEN, 0.0f);
+  expect(WLK_REASON_NO_LIGHT, 0, 0, "no light is given");
+}
+
 TEST_F(VolumeAmbientBudget, NothingIsRecordedWithoutIt) {
   setAmbient(WLK_AMBIENT_OFF);
   prepare();
