@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "api/ambient_light.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 #include "api/sky_map.hpp"
@@ -15,27 +18,42 @@ namespace {
 // red band at the horizon is narrow (QuerySkyMap.OfTwelveTexelsLightsABoxAsAFineOneDoes).
 constexpr uint32_t MAP_SIZE = 12;
 
+// What an ambient light is made of, byte by byte. Of fixed size: frames compare it.
 class Key {
  public:
   template <typename T>
   void add(const T& value) {
-    const auto* bytes = reinterpret_cast<const char*>(&value);
-    data_.insert(data_.end(), bytes, bytes + sizeof value);
+    std::memcpy(data_.data() + size_, &value, sizeof value);
+    size_ += sizeof value;
   }
   template <typename T>
   void add(const std::optional<T>& value) {
-    data_.push_back(value ? 1 : 0);
+    data_[size_++] = value ? 1 : 0;
     if (value) {
       add(*value);
     }
   }
-  std::vector<char> take() { return std::move(data_); }
+  [[nodiscard]] bool isThatOf(const std::vector<char>& kept) const {
+    return std::ranges::equal(kept, bytes());
+  }
+  void keepIn(std::vector<char>& kept) const {
+    kept.reserve(data_.size());  // once
+    kept.assign(bytes().begin(), bytes().end());
+  }
 
  private:
-  std::vector<char> data_;
+  [[nodiscard]] std::span<const char> bytes() const { return {data_.data(), size_}; }
+
+  using Scene = AirState;
+  std::array<char, sizeof(glm::dmat4x3) + sizeof(int) + sizeof(Scene::ambient) +
+                       sizeof(Scene::planet) + sizeof(Scene::sky) + sizeof(Scene::absorber) +
+                       sizeof(Scene::fog) + sizeof(uintptr_t) + sizeof(Scene::lights) +
+                       sizeof(Scene::lightCount) + sizeof(WlkContext_T::shownFieldVersion)>
+      data_;
+  size_t size_ = 0;
 };
 
-std::vector<char> keyOf(const WlkContext_T& c, const glm::dmat4x3& worldFromBox, int thinAxis) {
+Key keyOf(const WlkContext_T& c, const glm::dmat4x3& worldFromBox, int thinAxis) {
   Key key;
   key.add(c.air.ambient);
   key.add(worldFromBox);
@@ -50,30 +68,43 @@ std::vector<char> keyOf(const WlkContext_T& c, const glm::dmat4x3& worldFromBox,
     key.add(c.air.lightCount);
     key.add(c.shownFieldVersion);
   }
-  return key.take();
+  return key;
 }
+
+// Light from all directions, on the stack.
+class Samples {
+ public:
+  void add(const AmbientSample& sample) { data_[size_++] = sample; }
+  operator std::span<const AmbientSample>() const { return {data_.data(), size_}; }
+
+  static constexpr size_t ROOM = 384;
+
+ private:
+  std::array<AmbientSample, ROOM> data_;
+  size_t size_ = 0;
+};
 
 glm::dvec3 middleOf(const glm::dmat4x3& worldFromBox) {
   return worldFromBox * glm::dvec4(0.5, 0.5, 0.5, 1);
 }
 
-std::vector<AmbientSample> skySamples(const WlkContext_T& c, const PlanetFrame& place) {
-  std::vector<SkyMap> maps;
+Samples skySamples(const WlkContext_T& c, const PlanetFrame& place) {
+  static_assert(size_t{MAP_SIZE} * MAP_SIZE <= Samples::ROOM);
+  std::array<std::optional<SkyMap>, MAX_LIGHTS> maps;
   for (uint32_t l = 0; l < c.air.lightCount; ++l) {
-    maps.emplace_back(c.air, place, l, c.shownField.get());
+    maps[l].emplace(c.air, place, l, c.shownField.get());
   }
-  std::vector<AmbientSample> samples;
-  samples.reserve(size_t{MAP_SIZE} * MAP_SIZE);
+  Samples samples;
   const double halfWidth = 1.0 / MAP_SIZE;
   for (uint32_t j = 0; j < MAP_SIZE; ++j) {
     for (uint32_t i = 0; i < MAP_SIZE; ++i) {
       const glm::dvec2 uv((2.0 * i + 1) * halfWidth - 1, (2.0 * j + 1) * halfWidth - 1);
       AmbientSample sample{octahedralDirection(uv), octahedralSolidAngle(uv, MAP_SIZE),
                            glm::dvec3(0)};
-      for (const SkyMap& map : maps) {
-        sample.radiance += map.texel(uv, halfWidth);
+      for (uint32_t l = 0; l < c.air.lightCount; ++l) {
+        sample.radiance += maps[l]->texel(uv, halfWidth);
       }
-      samples.push_back(sample);
+      samples.add(sample);
     }
   }
   return samples;
@@ -98,14 +129,14 @@ glm::dvec3 harmonicSum(const float (&c)[WLK_AMBIENT_VALUES], const glm::dvec3& v
 }
 
 // Rings of equal solid angle around the local up: none crosses the horizontal plane.
-std::vector<AmbientSample> givenSamples(const WlkAmbient& given, const glm::dvec3& up) {
+Samples givenSamples(const WlkAmbient& given, const glm::dvec3& up) {
   constexpr int RINGS = 16;
   constexpr int AROUND = 24;
   const glm::dvec3 other = std::abs(up.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
   const glm::dvec3 a = glm::normalize(glm::cross(up, other));
   const glm::dvec3 b = glm::cross(up, a);
-  std::vector<AmbientSample> samples;
-  samples.reserve(size_t{RINGS} * AROUND);
+  static_assert(size_t{RINGS} * AROUND <= Samples::ROOM);
+  Samples samples;
   for (int ring = 0; ring < RINGS; ++ring) {
     const double height = (2.0 * ring + 1) / RINGS - 1;
     const double flat = std::sqrt(1 - height * height);
@@ -115,14 +146,14 @@ std::vector<AmbientSample> givenSamples(const WlkAmbient& given, const glm::dvec
       const float(&side)[3] = height > 0 ? given.sky : given.ground;
       const glm::dvec3 radiance =
           glm::dvec3(side[0], side[1], side[2]) + harmonicSum(given.harmonics, from);
-      samples.push_back(
+      samples.add(
           {from, 4 * std::numbers::pi / (RINGS * AROUND), glm::max(radiance, glm::dvec3(0))});
     }
   }
   return samples;
 }
 
-std::vector<AmbientSample> samplesOn(const WlkContext_T& c, const glm::dmat4x3& worldFromBox) {
+Samples samplesOn(const WlkContext_T& c, const glm::dmat4x3& worldFromBox) {
   constexpr double FARTHEST = 1e9;  // m, as positions of queries
   glm::dvec3 middle = middleOf(worldFromBox);
   if (!(glm::length(middle) <= FARTHEST)) {
@@ -152,10 +183,10 @@ SurfaceAmbientLight halvesOf(std::span<const AmbientSample> samples, const glm::
 void planSurfaceAmbient(WlkContext_T& c, const ViewState& view, PlannedVolume& planned) {
   SurfaceState& surface = *c.surfaces.find(planned.id);
   const glm::dmat4x3 box = surface.worldFromBox();
-  std::vector<char> key = keyOf(c, box, 0);
-  if (key != surface.ambientKey) {
+  const Key key = keyOf(c, box, 0);
+  if (!key.isThatOf(surface.ambientKey)) {
     surface.ambient = halvesOf(samplesOn(c, box), planetFrameAt(c.air.planet, middleOf(box)).up);
-    surface.ambientKey = std::move(key);
+    key.keepIn(surface.ambientKey);
   }
   const bool dark = surface.ambient.sky == glm::dvec3(0) && surface.ambient.ground == glm::dvec3(0);
   if (dark && !view.plan.quality.noSkip) {
@@ -173,14 +204,14 @@ void planAmbient(WlkContext_T& c, ViewState& view) {
     }
     VolumeState& volume = *c.volumes.find(planned.id);
     const TransportShape shape = transportShape(volume, view.plan.quality.ambientCells);
-    std::vector<char> key = keyOf(c, volume.worldFromBox, shape.thinAxis);
+    const Key key = keyOf(c, volume.worldFromBox, shape.thinAxis);
     const bool whole = planned.ambientWhole;
     VolumeAmbient& ambient = volume.ambient[whole ? 1 : 0];
-    if (key != ambient.key) {
-      const std::vector<AmbientSample> samples = samplesOn(c, volume.worldFromBox);
+    if (!key.isThatOf(ambient.key)) {
+      const Samples samples = samplesOn(c, volume.worldFromBox);
       ambient.light = ambientThrough(glm::dmat3(volume.worldFromBox), shape, samples);
       ambient.fine = ambientFine(*volume.transport, samples, whole);
-      ambient.key = std::move(key);
+      key.keepIn(ambient.key);
     }
     if (dark(ambient.light) && !view.plan.quality.noSkip) {
       planned.ambient = false;

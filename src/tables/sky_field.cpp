@@ -91,7 +91,13 @@ SkyColor SkyField::fogSourceAt(double altitude, const SkyPlace& place, double vi
 SkyField::Parts SkyField::gatheredAlong(double altitude, double viewMu, double sunMu,
                                         double viewSun, double distance, int steps) const {
   const SkyAxes axes(air_);
-  const SkyRay plan = planRay(eye_, axes, altitude, viewMu, distance, steps);
+  // Frames ask for such rays: their steps lie on the stack.
+  constexpr size_t USUAL_STEPS = 64;
+  alignas(SkyStep) std::array<std::byte, USUAL_STEPS * sizeof(SkyStep)> room;
+  std::pmr::monotonic_buffer_resource memory(room.data(), room.size());
+  SkyRay plan{std::pmr::vector<SkyStep>(&memory)};
+  plan.steps.reserve(static_cast<size_t>(steps));
+  planRay(eye_, axes, altitude, viewMu, distance, steps, plan);
   const double r = air_.planetRadius + altitude;
   const SkyAim aim{static_cast<float>(r), static_cast<float>(viewMu), static_cast<float>(sunMu),
                    static_cast<float>(viewSun)};

@@ -32,14 +32,6 @@ double stopAt(double lowest, double reach, int count, int i) {
 
 }  // namespace
 
-SkyRay planRay(const AirInput& air, const SkyAxes& axes, double altitude, double viewMu,
-               double distance, int count) {
-  SkyRay plan;
-  plan.steps.reserve(static_cast<size_t>(count));
-  planRay(air, axes, altitude, viewMu, distance, count, plan);
-  return plan;
-}
-
 void planRay(const AirInput& input, const SkyAxes& axes, double altitude, double viewMu,
              double distance, int count, SkyRay& plan) {
   const Air air = airFrom(input);

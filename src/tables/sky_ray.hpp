@@ -2,6 +2,8 @@
 // A ray through air and fog in steps, and the frame of the moments along it. m.
 #pragma once
 
+#include <memory_resource>
+
 #include "tables/sky_table.hpp"
 
 namespace welkin {
@@ -17,15 +19,13 @@ struct SkyStep {
 };
 
 struct SkyRay {
-  std::vector<SkyStep> steps;
+  std::pmr::vector<SkyStep> steps;
   double ground = -1;  // distance
   Lanes atGround{};    // transmittance to there
 };
 
 // Through `air` from an altitude, seen under the cosine viewMu to the up, over at most `distance`.
-SkyRay planRay(const AirInput& air, const SkyAxes& axes, double altitude, double viewMu,
-               double distance, int count);
-// The same into memory that is there: allocates nothing if `plan.steps` has room for `count`.
+// Allocates nothing if `plan.steps` has room for `count`.
 void planRay(const AirInput& air, const SkyAxes& axes, double altitude, double viewMu,
              double distance, int count, SkyRay& plan);
 

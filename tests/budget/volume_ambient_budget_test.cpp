@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "support/engine_scene.hpp"
+#include "support/library_allocations.hpp"
 
 namespace welkin::test {
 namespace {
@@ -81,13 +82,17 @@ TEST_F(VolumeAmbientBudget, KeepsWhatHasNotChangedAndWritesNoDescriptor) {
   expectComputed("the first frame");
   for (int i = 0; i < WARM_UP + 4; ++i) {
     scene.setCamera({20.0 * i, 2, -10.0 * i}, 1.0 * i, 12);
+    const uint64_t before = libraryAllocations();
     expectKept("the camera moved");
     if (i >= WARM_UP) {
       EXPECT_EQ(scene.stats().descriptorWrites, 0u) << i;
+      EXPECT_EQ(libraryAllocations(), before) << i;
     }
   }
+  const uint64_t before = libraryAllocations();
   scene.setSun(31, 20);
   expectComputed("the sun rose");
+  EXPECT_EQ(libraryAllocations(), before);
   scene.setSun(31, 20);
   expectKept("the same sun");
 }

@@ -262,8 +262,8 @@ TEST(SkyFan, ScattersLikeSingleRays) {
   const double altitude = 3000;
   const auto radius = static_cast<float>(air.planetRadius + altitude);
   for (const float viewMu : {-0.9F, -0.02F, 0.1F, 0.8F}) {
-    const welkin::SkyRay ray =
-        welkin::planRay(air, welkin::SkyAxes(air), altitude, static_cast<double>(viewMu), INF, 20);
+    welkin::SkyRay ray;
+    welkin::planRay(air, welkin::SkyAxes(air), altitude, static_cast<double>(viewMu), INF, 20, ray);
     const float azimuth = unit(generator) * static_cast<float>(PI);
     for (const welkin::SkyStep& step : ray.steps) {
       welkin::Suns sunMu;
