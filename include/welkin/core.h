@@ -73,7 +73,8 @@ enum {
   WLK_ERROR_MISSING_FEATURE = -10,
   /** completedFrameIndex lags more than maxFramesInFlight behind frameIndex. */
   WLK_ERROR_FRAMES_IN_FLIGHT = -11,
-  /** Something was created or changed after the last wlkPrepare; call it again. */
+  /** Something was created or changed after the last wlkPrepare; call it again, and in a frame
+   *  that has begun record wlkVulkanCmdUpdate again before the views. */
   WLK_ERROR_NOT_PREPARED = -12,
   /** The call does not fit the context's mode or state (for example recording without a frame). */
   WLK_ERROR_WRONG_STATE = -13,

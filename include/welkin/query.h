@@ -54,7 +54,7 @@ WLK_API WlkResult wlkEvalSky(WlkContext context, const WlkRayBatch* batch, doubl
 /** Part of the light that air and fog let through between two world points (m, |x| <= 1e9): 3
  *  values in [0, 1], the same both ways. 0 if the planet is between them: the straight line
  *  passes more than 1 m below sea level or, if a point lies below sea level, below the lower
- *  point. Exactly 1 without air, absorber and fog, and if the points coincide. Volumes are not
+ *  point. Else exactly 1 without air, absorber and fog, and if the points coincide. Volumes are not
  *  seen. Error of the optical depth 0.2 %; cost 1 us. [C]
  *  Errors: INVALID_ARGUMENT (from, to, transmittance), and nothing is written. */
 WLK_API WlkResult wlkEvalTransmittance(WlkContext context, const double from[3], const double to[3],

@@ -257,7 +257,8 @@ typedef struct WlkQualityState {
   uint32_t rung;
   uint32_t lowestRung;
   uint32_t highestRung;
-  /** What the rung stands for, as in WlkQuality; 0 where the library uses no such number. */
+  /** What the rung stands for, as in WlkQuality; 0 where the library uses no such number: no
+   *  batches where light is kept, no cells without light of several orders. */
   uint32_t sliceCount;
   uint32_t batchSize;
   uint32_t lightBufferSize;
@@ -289,10 +290,11 @@ WLK_API const char* wlkControlReasonName(uint32_t reason);
 /* ------------------------------------------------------------------------------------- frames */
 
 /** Makes every pipeline, buffer and table that the present scene and views need. After it, and
- *  until something is created or resized, recording allocates nothing. Solves for the light that
- *  air and fog scatter more than once (0.1 to 0.4 s) if the air has changed; without it the next
- *  frames show the old light while wlkVulkanCmdUpdate solves for the new, 4 ms of CPU time each,
- *  24 in clear air, 42 to 126 in fog, and allocates when it begins and ends. Light that is
+ *  until something is created or resized, recording allocates nothing. If it fails, what it had
+ *  made stays, and views that were prepared may need it again (NOT_PREPARED). Solves for the light
+ * that air and fog scatter more than once (0.1 to 0.4 s) if the air has changed; without it the
+ * next frames show the old light while wlkVulkanCmdUpdate solves for the new, 4 ms of CPU time
+ * each, 24 in clear air, 42 to 126 in fog, and allocates when it begins and ends. Light that is
  *  scattered more than once sees the fields of a volume as one mixture. It follows what was
  *  uploaded: exactly when this is called, else by wlkVulkanCmdUpdate once a field's share of the
  *  volume's extinction has changed by more than 0.05, for 14 ms and one buffer. Views whose eye has

@@ -14,13 +14,16 @@
  *  - Handles are values; {0} is null; a stale handle gives WLK_ERROR_INVALID_HANDLE, never a crash.
  *    A context alone is a pointer: it must be null or alive.
  *  - Functions that fail change nothing and leave what they would fill as it was, but for
- *    wlkCreateContext, which writes null, and wlkVulkanCmd..., see there. wlkGetLastError names the
+ *    wlkCreateContext, which writes null, wlkPrepare and wlkVulkanCmd..., see there.
+ *    wlkGetLastError names the
  *    structure and the field at fault.
  *  - Every function may return INVALID_ARGUMENT for null pointers and values out of their ranges,
  *    INVALID_HANDLE, UNKNOWN_STRUCT and STRUCT_TOO_NEW for the heads of structures, and
- *    OUT_OF_HOST_MEMORY; further errors are named at each.
- *  - Setters of planet, sky, absorber, fog, ambient light, aerial perspective and a surface's
- * detail take null for what there is at first; others refuse it.
+ *    OUT_OF_HOST_MEMORY; those that need the context's device DEVICE_LOST once it is lost; further
+ *    errors are named at each.
+ *  - Setters of planet, sky, absorber, fog, ambient light, aerial perspective, a surface's detail
+ *    and a field's image take null for what there is at first, wlkSetLights with a count of 0;
+ *    others refuse it.
  *
  * Growth, within a major version:
  *  - Structures get fields at their ends, whose 0 is what was before; callers' older, shorter

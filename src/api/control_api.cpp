@@ -62,9 +62,9 @@ WlkResult wlkGetQualityState(WlkContext context, WlkView view, WlkQualityState* 
     value.lowestRung = control ? range.lowest : range.highest;
     value.highestRung = range.highest;
     value.sliceCount = quality.sliceCount;
-    value.batchSize = quality.batchSize;
+    value.batchSize = quality.stored ? 0 : quality.batchSize;
     value.lightBufferSize = quality.lightSize;
-    value.volumeCells = quality.transportCells;
+    value.volumeCells = quality.transport ? quality.transportCells : 0;
     value.time_ms = control ? static_cast<float>(governor.time) : 0.0f;
     value.predictedTime_ms = control ? static_cast<float>(governor.predicted) : 0.0f;
     value.relativeError = control ? static_cast<float>(governor.error) : 0.0f;

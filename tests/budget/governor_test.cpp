@@ -187,6 +187,19 @@ TEST(GovernedView, AnotherBudgetNeedsNoPreparingAnotherControlDoes) {
   EXPECT_EQ(governed.state().reason, uint32_t{WLK_CONTROL_REASON_UNREACHABLE});
 }
 
+TEST(QualityState, HasNoNumberOfWhatTheLevelDoesWithout) {
+  GovernedScene governed(make<WlkQuality>());
+  EXPECT_GT(governed.state().sliceCount, 0u);
+  EXPECT_EQ(governed.state().batchSize, 0u) << "light is kept";
+  EXPECT_GT(governed.state().volumeCells, 0u);
+  auto quality = make<WlkQuality>();
+  quality.batchSize = 8;
+  quality.scattering = WLK_SCATTERING_SINGLE;
+  governed.set(quality);
+  EXPECT_EQ(governed.state().batchSize, 8u);
+  EXPECT_EQ(governed.state().volumeCells, 0u);
+}
+
 TEST(GovernedView, WithoutAVolumeInViewItWaits) {
   GovernedScene governed(test::governed(WLK_CONTROL_REPORTED_TIME, WLK_QUALITY_MEDIUM, 0));
   for (int i = 0; i < 60; ++i) {

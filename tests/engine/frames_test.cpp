@@ -72,6 +72,53 @@ TEST(EngineFrames, FramesInFlightKeepTheirOwnCameras) {
   }
 }
 
+// What a view that is refused says; its own images are written all the same.
+WlkResult refusal(const Shot& shot, VkCommandBuffer commands, WlkContext context) {
+  try {
+    shot.record(commands, context);
+  } catch (const welkin::Error& error) {
+    return error.result();
+  }
+  return WLK_SUCCESS;
+}
+
+TEST(EngineFrames, OneThatHasBegunMayBePreparedAgain) {
+  Engine engine(FRAMES, false);
+  const WlkContext context = engine.context();
+  const welkin::View view = engine.makeView(EXTENT, WLK_COMPOSITE_COMPUTE, COLOR);
+  const Request request = makeRequest(view);
+  const WlkCamera camera = cameraOfFrame(0);
+  check(wlkSetCamera(context, view, &camera));
+  const Shot first(engine.device(), request);
+  const Shot second(engine.device(), request);
+  const Shot shot(engine.device(), request);
+  ASSERT_EQ(engine.beginFrame(1, 0), WLK_SUCCESS);
+  VkCommandBuffer commands = engine.device().begin();
+  check(wlkVulkanCmdUpdate(context, commands));
+  check(wlkSetFog(context, nullptr));
+  EXPECT_EQ(refusal(first, commands, context), WLK_ERROR_NOT_PREPARED);
+  uploadCloud(context, engine.cloud(), cloudValues());
+  check(wlkPrepare(context));
+  EXPECT_EQ(refusal(second, commands, context), WLK_ERROR_WRONG_STATE) << "voxels wait";
+  check(wlkVulkanCmdUpdate(context, commands));
+  shot.record(commands, context);
+  engine.device().submit(commands);
+  engine.device().wait();
+  const std::vector<float> picture = shot.result().output;
+  for (const Shot* one : {&first, &second, &shot}) {
+    one->forget(context);
+  }
+  ASSERT_EQ(engine.beginFrame(2, 1), WLK_SUCCESS);
+  const Shot next(engine.device(), request);
+  commands = engine.device().begin();
+  check(wlkVulkanCmdUpdate(context, commands));
+  next.record(commands, context);
+  engine.device().submit(commands);
+  engine.device().wait();
+  EXPECT_EQ(next.result().output, picture) << "a frame that began with all of it";
+  next.forget(context);
+}
+
 TEST(EngineFrames, OneFrameTooManyIsRefusedAndChangesNothing) {
   for (const uint32_t most : {1u, 3u, 8u}) {
     SCOPED_TRACE(most);

@@ -35,7 +35,8 @@ typedef struct WlkAerialPerspective {
 } WlkAerialPerspective;
 
 /** Gives a view froxels, which wlkVulkanCmdRenderView writes to images that it gets; null takes
- *  them away. Another size needs wlkPrepare, exponent and distance do not. [C] Errors:
+ *  them away. The first ones, those after null and another size need wlkPrepare, exponent and
+ *  distance do not. [C] Errors:
  *  INVALID_ARGUMENT, WRONG_STATE outside engine-device mode; LIMIT_EXCEEDED by wlkPrepare. */
 WLK_API WlkResult wlkSetAerialPerspective(WlkContext context, WlkView view,
                                           const WlkAerialPerspective* aerial);

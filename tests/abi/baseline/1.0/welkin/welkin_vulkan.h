@@ -156,14 +156,17 @@ typedef struct WlkVulkanViewTargets {
  *  stages and access are not looked at, and the engine makes the barriers between its writes and
  *  the compute and fragment shaders of Welkin's commands, which come later in submission order. It
  *  lives until wlkVulkanForgetImage. Values that are negative or not finite count as 0. Needs
- *  wlkPrepare where it takes the place of bricks, or bricks its. [C] Errors:
+ *  wlkPrepare where it takes the place of bricks, or bricks its, and where rays leap
+ *  (WlkVolumeState::leaps): nobody knows where the image is empty. [C] Errors:
  *  WRONG_STATE outside engine-device mode, INVALID_HANDLE, INVALID_ARGUMENT (field, size, layouts),
  *  UNSUPPORTED_FORMAT, OUT_OF_*. */
 WLK_API WlkResult wlkVulkanSetVolumeImage(WlkContext context, WlkVolume volume, uint32_t field,
                                           const WlkVulkanImage* image);
 
 /** Drops the image views that Welkin made of an image; call it before destroying or recreating
- *  the image. Frames that use it must be complete. [C] Errors: WRONG_STATE in CPU mode. */
+ *  the image. Fields that read it have Welkin's copy again, as by wlkVulkanSetVolumeImage with
+ *  null, and may need wlkPrepare as there. Frames that use it must be complete. [C] Errors:
+ *  WRONG_STATE in CPU mode. */
 WLK_API WlkResult wlkVulkanForgetImage(WlkContext context, VkImage image);
 
 /* ---------------------------------------------------------------------------------- recording */
@@ -178,16 +181,19 @@ WLK_API WlkResult wlkVulkanForgetImage(WlkContext context, VkImage image);
  * nothing. After OUT_OF_* and DEVICE_LOST the command buffer holds what is incomplete: throw that
  * away, but what earlier calls recorded must run. */
 
-/** Records pending uploads. Outside a render pass, once per frame, before the views. After a change
+/** Records pending uploads. Outside a render pass, in each frame that wlkBeginFrame begins, before
+ *  the views; once more where something was created, uploaded or prepared since, or the views that
+ *  follow are refused (WRONG_STATE). After a change
  *  of planet, sky or fog, or of the shares of a volume's fields or its optical depth, without
  *  wlkPrepare it also solves for some of the new light, see there. Record it even in frames that
- *  draw no view, or uploads wait. [C] Errors: WRONG_STATE without wlkBeginFrame; OUT_OF_* after
- *  such a change. */
+ *  draw no view, or uploads wait. [C] Errors: WRONG_STATE before the first wlkBeginFrame; OUT_OF_*
+ *  after such a change. */
 WLK_API WlkResult wlkVulkanCmdUpdate(WlkContext context, VkCommandBuffer commandBuffer);
 
 /** Records a view. Outside a render pass. Afterwards the command buffer's pipelines, descriptor
  *  sets, push constants and dynamic state are undefined. At most once per view and frame. [C]
- *  Errors: WRONG_STATE (also for a shadow map without the quality's flag), NOT_PREPARED,
+ *  Errors: WRONG_STATE (also for a shadow map without the quality's flag, and while what was
+ *  created or first uploaded waits for wlkVulkanCmdUpdate), NOT_PREPARED,
  *  INVALID_ARGUMENT, UNSUPPORTED_FORMAT, OUT_OF_*, DEVICE_LOST. */
 WLK_API WlkResult wlkVulkanCmdRenderView(WlkContext context, VkCommandBuffer commandBuffer,
                                          WlkView view, const WlkVulkanViewTargets* targets);
