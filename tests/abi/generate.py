@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Writes symbols.txt, fixed.txt, layout_test.c and src/welkin.map from the public headers; --check
-compares.
+compares. Both require that c_consumer.c, which becomes the baseline's old program, calls every
+function.
 
 Run it after an intended change of the API; the diff of these files is then the ABI change to
 review. The offsets come from the compiler, so x86-64 Linux with gcc is needed.
@@ -73,6 +74,12 @@ def without_comments(text):
 
 def functions(text):
     return re.findall(r"WLK_API\b[^;{]*?\b(wlk\w+)\s*\(", text)
+
+
+def not_called(names, program):
+    """Those that the C text does not call: a comment or a name without parentheses is no call."""
+    called = set(re.findall(r"\b(wlk\w+)\s*\(", without_comments(program)))
+    return sorted(set(names) - called)
 
 
 def enumerators(text):
@@ -173,6 +180,9 @@ def main():
             print(f"{path.name} does not describe the headers: if the change of the API is "
                   "intended, run tests/abi/generate.py and review the difference")
             failed = 1
+    for name in not_called(node_of, (HERE / "c_consumer.c").read_text()):
+        print(f"c_consumer.c does not call {name}")
+        failed = 1
     return failed
 
 

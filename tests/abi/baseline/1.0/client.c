@@ -82,6 +82,12 @@ static void freeFunctions(void) {
   REQUIRE(strcmp(wlkResultName(WLK_ERROR_VERSION), "WLK_ERROR_VERSION") == 0);
   REQUIRE(strcmp(wlkResultName(12345), "WLK_UNKNOWN_RESULT") == 0);
   REQUIRE(strcmp(wlkReasonName(WLK_REASON_ZERO_DENSITY), "WLK_REASON_ZERO_DENSITY") == 0);
+  REQUIRE(strcmp(wlkApproximationName(WLK_APPROXIMATION_FOG), "WLK_APPROXIMATION_FOG") == 0);
+  REQUIRE(strcmp(wlkControlReasonName(WLK_CONTROL_REASON_IDLE), "WLK_CONTROL_REASON_IDLE") == 0);
+  /* Numbers of a later library have a name here, too: one that says so. */
+  REQUIRE(strcmp(wlkReasonName(12345), "WLK_UNKNOWN_REASON") == 0);
+  REQUIRE(strcmp(wlkApproximationName(12345), "WLK_UNKNOWN_APPROXIMATION") == 0);
+  REQUIRE(strcmp(wlkControlReasonName(12345), "WLK_UNKNOWN_CONTROL_REASON") == 0);
   EXPECT(WLK_ERROR_UNKNOWN_STRUCT, wlkInitStruct(9999, sizeof sky, &sky));
   EXPECT(WLK_ERROR_INVALID_ARGUMENT, wlkInitStruct(WLK_STRUCT_SKY, 4, &sky));
   INIT(WLK_STRUCT_ERROR_INFO, error);
@@ -274,6 +280,39 @@ static void objects(WlkContext context) {
   EXPECT(WLK_ERROR_INVALID_HANDLE, wlkDestroyMedium(context, medium));
 }
 
+/* Maps are of an engine's device alone, so that no handle of one is known here. */
+static void cloudShadows(WlkContext context) {
+  WlkCloudShadowInfo info;
+  WlkCloudShadowState state;
+  WlkVulkanImage image;
+  WlkCloudShadow map = {0};
+
+  INIT(WLK_STRUCT_CLOUD_SHADOW_INFO, info);
+  REQUIRE(info.width == 512 && info.height == 512 && info.extent[1] == 20000.0);
+  INIT(WLK_STRUCT_CLOUD_SHADOW_STATE, state);
+  INIT(WLK_STRUCT_VULKAN_IMAGE, image);
+  EXPECT(WLK_ERROR_WRONG_STATE, wlkCreateCloudShadow(context, &info, &map));
+  REQUIRE(map.id == 0);
+  EXPECT(WLK_ERROR_INVALID_HANDLE, wlkSetCloudShadow(context, map, &info));
+  EXPECT(WLK_ERROR_INVALID_HANDLE, wlkGetCloudShadowState(context, map, &state));
+  EXPECT(WLK_ERROR_WRONG_STATE, wlkVulkanCmdRenderCloudShadow(context, NULL, map, &image));
+  EXPECT(WLK_ERROR_INVALID_HANDLE, wlkDestroyCloudShadow(context, map));
+}
+
+/* The same of what views estimate and control. */
+static void viewStates(WlkContext context) {
+  WlkErrorEstimate estimate;
+  WlkQualityState state;
+  WlkView view = {0};
+
+  INIT(WLK_STRUCT_ERROR_ESTIMATE, estimate);
+  INIT(WLK_STRUCT_QUALITY_STATE, state);
+  EXPECT(WLK_ERROR_INVALID_HANDLE, wlkGetErrorEstimate(context, view, &estimate));
+  EXPECT(WLK_ERROR_INVALID_HANDLE, wlkGetQualityState(context, view, &state));
+  EXPECT(WLK_ERROR_INVALID_HANDLE, wlkReportFrameTime(context, view, 1, 2.0));
+  REQUIRE(estimate.relativeError == 0.0f && state.switches == 0);
+}
+
 /* Every function that needs a device refuses a CPU context with a negative code. */
 static void deviceFunctions(WlkContext context) {
   WlkViewInfo viewInfo;
@@ -342,6 +381,8 @@ int main(void) {
   scene(context);
   queries(context);
   objects(context);
+  cloudShadows(context);
+  viewStates(context);
   deviceFunctions(context);
   wlkDestroyContext(context);
   REQUIRE(liveBlocks == 0);
