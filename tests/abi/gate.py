@@ -14,7 +14,7 @@ Six checks, because each is blind somewhere:
 - abidiff, and abi-compliance-checker: types and signatures (see neither macros nor enumerators
   without a type);
 - client: the baseline's C program, with the baseline's headers, run with the new library, which
-  must also know the sizes that structures had;
+  must also know the sizes that structures had and write no more than them;
 - defaults: what wlkInitStruct writes into the fields of that time;
 - nodes: functions keep the version node of the minor version that brought them, and none is added
   to the node of a frozen one.
@@ -146,16 +146,32 @@ def with_heads(include):
             if fields[:2] == ["sType", "structSize"]]
 
 
+SIZES = """
+#include <stdio.h>
+#include <string.h>
+#include <welkin/welkin_vulkan.h>
+static double room[8192];
+static int bad(const char* name, unsigned type, unsigned size) {
+  const unsigned char* byte = (const unsigned char*)room;
+  const char* what = NULL;
+  size_t i;
+  memset(room, 0xee, sizeof room);
+  if (wlkInitStruct(type, size, room) != WLK_SUCCESS) what = "refused";
+  for (i = size; i < sizeof room; ++i) if (byte[i] != 0xee) what = "overrun";
+  if (what != NULL) fprintf(stderr, "%s of %u bytes is %s\\n", name, size, what);
+  return what != NULL;
+}
+int main(void) {
+  int failures = 0;
+"""
+
+
 def sizes_program(include):
-    """A C program: does the library still fill structures of the baseline's sizes?"""
-    lines = ["#include <stdio.h>", "#include <welkin/welkin_vulkan.h>", "static double room[8192];",
-             "int main(void) {", "int failures = 0;"]
-    for name, _ in with_heads(include):
-        call = f"wlkInitStruct({struct_type(name)}, sizeof({name}), room)"
-        lines.append(f"if ({call} != WLK_SUCCESS) {{"
-                     f' fprintf(stderr, "{name} of %zu bytes is refused\\n", sizeof({name}));'
-                     " ++failures; }")
-    return "\n".join([*lines, "return failures != 0; }"])
+    """A C program: does the library still fill structures of the baseline's sizes, and not a byte
+    behind them?"""
+    lines = [f'failures += bad("{name}", {struct_type(name)}, sizeof({name}));'
+             for name, _ in with_heads(include)]
+    return "\n".join([SIZES, *lines, "return failures != 0; }"])
 
 
 PRINTERS = """

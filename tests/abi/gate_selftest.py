@@ -5,6 +5,7 @@ keep old programs running must pass. Works on small headers of its own, in the f
 ones. Prints what is not as it should be."""
 import concurrent.futures
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -185,7 +186,7 @@ def library_verdict(case):
 
 # What wlkInitStruct writes: (what, text of BOX or FILL, what replaces it, is it a break).
 BOX = """
-enum { WLK_STRUCT_TOY_BOX = 1 };
+enum { WLK_SUCCESS = 0, WLK_STRUCT_TOY_BOX = 1 };
 typedef struct WlkToyBox {
   uint32_t sType;
   uint32_t structSize;
@@ -196,6 +197,7 @@ typedef struct WlkToyBox {
   const void* data;
 } WlkToyBox;
 WLK_API WlkResult wlkInitStruct(uint32_t sType, uint32_t structSize, void* structure);
+WLK_API double wlkToyVolume(double edge);
 """
 FILL = """
 #include <string.h>
@@ -205,6 +207,7 @@ WlkResult wlkInitStruct(uint32_t sType, uint32_t structSize, void* structure) {
   memcpy(structure, &box, structSize < sizeof box ? structSize : sizeof box);
   return 0;
 }
+double wlkToyVolume(double edge) { return edge * edge * edge; }
 """
 DEFAULTS = [
     ("defaults as they were", "", "", False),
@@ -216,18 +219,24 @@ DEFAULTS = [
 ]
 
 
+def toy_library(folder, *changes):
+    """A library of BOX and FILL, changed by pairs (old, new), with its headers in `folder`."""
+    header, source = BOX, FILL
+    for old, new in changes:
+        header, source = header.replace(old, new, 1), source.replace(old, new, 1)
+    include = write_headers(folder, header)
+    (include / "fill.c").write_text(source)
+    library = include / "libtoy.so"
+    subprocess.run(["gcc", "-w", "-shared", "-fPIC", f"-I{include}", include / "fill.c",
+                    "-o", library], check=True)
+    return library
+
+
 def defaults_verdict(case):
     what, old, new, breaks = case
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(temporary)
-        libraries = []
-        for name in ("old", "new"):
-            change = (old, new) if name == "new" and old else ("", "")
-            include = write_headers(folder / name, BOX.replace(*change, 1))
-            (include / "fill.c").write_text(FILL.replace(*change, 1))
-            libraries.append(include / "libtoy.so")
-            subprocess.run(["gcc", "-w", "-shared", "-fPIC", f"-I{include}", include / "fill.c",
-                            "-o", libraries[-1]], check=True)
+        libraries = [toy_library(folder / "old"), toy_library(folder / "new", (old, new))]
         baseline = folder / "old"
         lines = gate.defaults(baseline, libraries[0], folder)
         (baseline / "defaults.txt").write_text("\n".join(lines) + "\n")
@@ -235,6 +244,60 @@ def defaults_verdict(case):
             return f"defaults are not listed, but {lines}"
         found = gate.check_defaults(baseline, libraries[1], folder)
     return f"{what}: {found or 'not seen'}" if bool(found) != breaks else None
+
+
+# Old programs with another library: (what, changes of BOX and FILL, a word of the finding).
+CLIENT = """
+#include <stdio.h>
+#include <welkin/core.h>
+int main(void) {
+  double volume = wlkToyVolume(2.0);
+  if (volume != 8.0) fprintf(stderr, "the volume is %g\\n", volume);
+  return volume != 8.0;
+}
+"""
+GROWN = ("const void* data;", "const void* data;\n  double late;")
+COPY = "memcpy(structure, &box, structSize < sizeof box ? structSize : sizeof box);"
+CLIENTS = [
+    ("a library as it was", [], ""),
+    ("a structure that grew, the old size taken", [GROWN], ""),
+    ("another value of the same call", [("edge * edge * edge", "edge * edge")],
+     "client.c: the volume is 4"),
+    ("a crash", [("return edge", "__builtin_trap(); return edge")], "client.c: exit status -"),
+    ("a function that old programs call is gone", [("wlkToyVolume", "wlkToyWeight")],
+     "client.c: .*undefined reference to .wlkToyVolume"),
+    ("a structure that grew, the old size refused",
+     [GROWN, (COPY, f"if (structSize < sizeof box) return -1; {COPY}")],
+     "sizes.c: WlkToyBox of 40 bytes is refused"),
+    ("a structure that shrank, the old size refused",
+     [("  const void* data;\n", ""), (COPY, f"if (structSize > sizeof box) return -1; {COPY}")],
+     "sizes.c: WlkToyBox of 40 bytes is refused"),
+    ("a structure that grew, written in its new size",
+     [GROWN, (COPY, "memcpy(structure, &box, sizeof box);")],
+     "sizes.c: WlkToyBox of 40 bytes is overrun"),
+]
+
+
+def client_verdict(case):
+    """By way of all_breaks, so that a check which is not called is seen as well."""
+    what, changes, word = case
+    if any(old not in BOX + FILL for old, _ in changes):
+        return f"{what}: the text to change does not exist"
+    with tempfile.TemporaryDirectory() as temporary:
+        root = pathlib.Path(temporary)
+        before = toy_library(root / "1.0")
+        baseline = before.parent
+        (baseline / "client.c").write_text(CLIENT)
+        (baseline / "symbols.txt").write_text("")
+        lines = gate.defaults(baseline, before, root)
+        (baseline / "defaults.txt").write_text("\n".join(lines) + "\n")
+        library = toy_library(root / "now", *changes)
+        found = gate.all_breaks(root, 1, library.parent, library, baseline / "symbols.txt")
+    lines = found.get("1.0 client", [])
+    if not word:
+        return f"{what} is harmless, but: {found}" if found else None
+    return None if any(re.search(word, line) for line in lines) else \
+        f"{what}: not seen by the client, but {found}"
 
 
 # Lists of symbols: (what, then, now, a word of the finding).
@@ -308,13 +371,14 @@ def main():
             wrong = [*pool.map(verdict, HARMLESS + BREAKS),
                      *pool.map(library_verdict, LIBRARIES),
                      *pool.map(defaults_verdict, DEFAULTS), *pool.map(nodes_verdict, NODES),
+                     *pool.map(client_verdict, CLIENTS),
                      written_nodes(), every_baseline()]
         except gate.Missing as error:
             sys.exit(str(error))
     wrong = [line for line in wrong if line]
+    cases = [BREAKS, LIBRARIES, DEFAULTS, NODES, CLIENTS]
     print("\n".join(wrong) if wrong else
-          f"{len(BREAKS) + len(LIBRARIES) + len(DEFAULTS) + len(NODES) - 3} breaks seen, "
-          f"{len(HARMLESS) + 5} changes passed")
+          f"{sum(map(len, cases)) - 5} breaks seen, {len(HARMLESS) + 7} changes passed")
     return 1 if wrong else 0
 
 
