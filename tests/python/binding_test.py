@@ -43,11 +43,12 @@ class Layout(unittest.TestCase):
         self.assertGreater(started, 25)
 
     def test_every_function_of_the_headers_is_exported(self):
-        text = "".join((TREE / "include/welkin" / name).read_text(encoding="utf-8")
-                       for name in ("core.h", "scene.h", "view.h", "output.h",
-                                    "statistics.h", "query.h"))
+        # From the folder, not from a list that a new header would be missing in.
+        headers = [file for file in (TREE / "include/welkin").glob("*.h")
+                   if file.name != "welkin_vulkan.h"]
+        text = "".join(file.read_text(encoding="utf-8") for file in headers)
         functions = re.findall(r"WLK_API\b[^;{]*?\b(wlk\w+)\s*\(", text)
-        self.assertGreater(len(functions), 40)
+        self.assertGreater(len(functions), 60)
         for function in functions:
             self.assertTrue(callable(getattr(wlk.lib, function)), function)
 
