@@ -7,7 +7,6 @@ prepare.py debian BUILD WORK SOURCE: makes the .deb packages and unpacks them, a
 particular, to WORK/unpacked.
 """
 import pathlib
-import re
 import shutil
 import subprocess
 import sys
@@ -54,9 +53,6 @@ def prefix(build, work, source):
     first.rename(moved)
     refuse_paths(moved, (first, source))
     check_archive(moved, source)
-    # The program finds its library where both now are.
-    if not re.fullmatch(r"\d+\.\d+\.\d+", run(moved / "bin" / "welkin", "--version").strip()):
-        sys.exit("bin/welkin --version gives no version")
 
 
 def field(package, name):
