@@ -3,7 +3,8 @@
 """Tests of the documents: docs_test.py SUITE SOURCE BUILD.
 
 links      every link and picture of every page leads somewhere, also to the heading it names
-code       what stands in ```c, glsl and python compiles or runs; the README's C host runs
+code       what stands in ```c, glsl and python compiles or runs; the README's C host runs; nothing
+           is in a language that no test reads (cmake: tests/package/documents.py)
 commands   programs, options, presets and files of shell blocks exist
 reference  Doxygen has no complaint, and every function and structure of the API has its text
 tests      every test that docs/reliability.md names exists, and no row of its tables lacks one
@@ -18,7 +19,8 @@ import xml.etree.ElementTree
 
 SUITE, SOURCE, BUILD = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
 PAGES = sorted([*SOURCE.glob("*.md"), *SOURCE.glob("docs/*.md")])
-BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.S | re.M)
+BLOCK = re.compile(r"^```(\S*)\n(.*?)^```", re.S | re.M)
+READ = {"", "c", "cmake", "glsl", "python", "sh", "bash"}
 PROGRAMS = ("cmake", "printf", "welkin")
 
 # Around a piece of C: what an engine has at hand there.
@@ -103,6 +105,10 @@ def run(page, command, **more):
 
 def code():
     count = 0
+    for page in PAGES:
+        text = page.read_text(encoding="utf-8")
+        for language in sorted({name for name, _ in BLOCK.findall(text)} - READ):
+            report(page, f"no test reads ```{language}")
     include = ["-I", str(SOURCE / "include")]
     with tempfile.TemporaryDirectory() as folder:
         for page, text in blocks("c"):
