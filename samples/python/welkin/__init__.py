@@ -5,4 +5,5 @@ the system's). docs/guide.md, "Python"."""
 from .api import API_VERSION, Error, check, constants, ffi, lib, make, make_preset
 from .context import Context
 
-__all__ = ["API_VERSION", "Context", "Error", "check", "constants", "ffi", "lib", "make"]
+__all__ = ["API_VERSION", "Context", "Error", "check", "constants", "ffi", "lib", "make",
+           "make_preset"]
