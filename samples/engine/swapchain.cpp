@@ -28,7 +28,7 @@ VkFormat displayFormat(const Gpu& gpu) {
   return pickFormat(gpu).format;
 }
 
-Swapchain::Swapchain(const Gpu& gpu, VkExtent2D wanted) : gpu_(gpu) {
+Swapchain::Swapchain(const Gpu& gpu, VkExtent2D wanted) : gpu_(gpu), wanted_(wanted) {
   VkSurfaceCapabilitiesKHR surface{};
   check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu.physical(), gpu.surface(), &surface),
         "vkGetPhysicalDeviceSurfaceCapabilitiesKHR");

@@ -20,6 +20,12 @@ class Swapchain {
   // Shows the image after rendered(index) is signalled; false if a new swapchain is needed.
   bool present(uint32_t index) const;
 
+  // Whether this was made for a window of this size. Ask each frame: not every driver says that a
+  // window has changed; lavapipe of Mesa 22 shows pictures of the old size in it.
+  bool fits(VkExtent2D window) const {
+    return window.width == wanted_.width && window.height == wanted_.height;
+  }
+
   VkExtent2D extent() const { return extent_; }
   uint32_t imageCount() const { return static_cast<uint32_t>(images_.size()); }
   VkFormat format() const { return format_; }
@@ -30,6 +36,7 @@ class Swapchain {
  private:
   const Gpu& gpu_;
   VkFormat format_ = VK_FORMAT_UNDEFINED;
+  VkExtent2D wanted_{};
   VkExtent2D extent_{};
   VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
   std::vector<VkImage> images_;

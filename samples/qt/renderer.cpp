@@ -41,6 +41,9 @@ void Renderer::rebuild(VkExtent2D size) {
 
 void Renderer::draw(VkExtent2D size, double hour, const Eye& eye, const std::string& file) {
   frames_.wait();
+  if (!swapchain_->fits(size)) {
+    rebuild(size);
+  }
   const std::optional<uint32_t> index = swapchain_->acquire(frames_.imageReady());
   if (!index) {
     rebuild(size);

@@ -123,6 +123,9 @@ class Engine {
 
   void drawFrame() {
     frames_.wait();
+    if (!swapchain_->fits(window_.extent())) {
+      resize();
+    }
     const std::optional<uint32_t> index = swapchain_->acquire(frames_.imageReady());
     if (!index) {
       if (panelShown_) {
