@@ -160,6 +160,11 @@ FrameReport Atmosphere::report() const {
   WlkErrorEstimate estimate = make<WlkErrorEstimate>();
   check(wlkGetErrorEstimate(context_, view_, &estimate));
   report.relativeError = estimate.relativeError;
+  if (ownClouds()) {
+    WlkMediumOptics optics = make<WlkMediumOptics>();
+    check(wlkGetMediumOptics(context_, droplets_, &optics));
+    report.dropletRadius_um = optics.effectiveRadius_um;
+  }
   report.ready = true;
   return report;
 }

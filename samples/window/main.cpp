@@ -11,7 +11,9 @@
 #include <exception>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "atmosphere.hpp"
 #include "engine/frames.hpp"
@@ -32,12 +34,13 @@ class Engine {
  public:
   explicit Engine(const Options& options)
       : options_(options),
-        window_(options.width, options.height),
+        window_(options.size),
         gpu_(window_.surfaceSource(), options.validate),
         frames_(gpu_, FRAMES_IN_FLIGHT),
         opaque_(gpu_),
         present_(gpu_, displayFormat(gpu_), options.composite),
         settings_(options.settings),
+        script_(options.script),
         panelShown_(options.panel || options.frames == 0) {
     swapchain_.emplace(gpu_, window_.extent());
     targets_.emplace(gpu_, swapchain_->extent(), options.composite);
@@ -57,11 +60,15 @@ class Engine {
           camera_, settings_.hour,
           {panelShown_ && panelPass_->wantsMouse(), panelShown_ && panelPass_->wantsKeys()});
       panelShown_ = panelShown_ != window_.panelToggled();
+      while (const Action* action = script_.next(frames_.index() + 1)) {
+        PanelRequest request;
+        action->perform(settings_, request);
+        serve(request);
+      }
       serve(drawPanel());
       drawFrame();
     }
     gpu_.waitIdle();
-    saveScreenshot();
     atmosphere_.reset();
     return gpu_.messages() == 0 ? 0 : 1;
   }
@@ -104,8 +111,19 @@ class Engine {
   }
 
   void serve(const PanelRequest& request) {
-    wanted_ = wanted_ || request.screenshot;
+    if (!request.screenshot.empty()) {
+      wanted_.push_back(request.screenshot);
+    }
+    if (request.size) {
+      window_.resize(*request.size);
+    }
+    if (request.report) {
+      std::printf("%s\n", describe(atmosphere_->report()).c_str());
+    }
     try {
+      if (request.clouds && !atmosphere_->ownClouds()) {  // the panel does not offer it either
+        throw std::runtime_error("the scene has clouds of its own");
+      }
       if (request.clouds) {
         atmosphere_->setClouds(settings_);
       }
@@ -117,6 +135,7 @@ class Engine {
         panel_.setMessage(request.scene);
       }
     } catch (const std::exception& error) {  // the user may have mistyped
+      std::fprintf(stderr, "welkin_window: %s\n", error.what());
       panel_.setMessage(error.what());
     }
   }
@@ -148,7 +167,7 @@ class Engine {
     if (!swapchain_->present(*index)) {
       resize();
     }
-    if (wanted_) {
+    if (screenshot_) {
       gpu_.waitIdle();
       saveScreenshot();
     }
@@ -160,7 +179,7 @@ class Engine {
     constexpr ImageState presented{VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, 0, VK_PIPELINE_STAGE_2_NONE,
                                    VK_ACCESS_2_NONE};
     ImageState state = COLOR_ATTACHMENT;
-    if (wanted_ || (!options_.screenshot.empty() && frames_.index() == options_.frames)) {
+    if (!wanted_.empty()) {
       screenshot_.emplace(gpu_, swapchain_->extent(), swapchain_->format());
       screenshot_->record(commands, image);
       state = Screenshot::TRANSFER_SOURCE;
@@ -170,13 +189,11 @@ class Engine {
 
   // Call when the GPU is done with the frame.
   void saveScreenshot() {
-    wanted_ = false;
-    if (screenshot_) {
-      const std::string file = options_.screenshot.empty() ? "welkin.png" : options_.screenshot;
+    for (const std::string& file : std::exchange(wanted_, {})) {
       screenshot_->save(file);
-      screenshot_.reset();
       panel_.setMessage(file);
     }
+    screenshot_.reset();
   }
 
   void resize() {
@@ -211,8 +228,9 @@ class Engine {
   Panel panel_;
   Camera camera_;
   Settings settings_;
+  Script script_;
   bool panelShown_;
-  bool wanted_ = false;  // a screenshot of this frame
+  std::vector<std::string> wanted_;  // files for a picture of this frame
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 

@@ -2,17 +2,18 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "script.hpp"
 #include "settings.hpp"
 
 struct Options {
-  uint32_t width = 1280;
-  uint32_t height = 720;
+  Size size;
   uint64_t frames = 0;  // 0: until the window is closed
   uint32_t composite = WLK_COMPOSITE_COMPUTE;
   Settings settings;  // as the engine starts
   std::string scene;  // a scene file instead of the sample's own air and clouds
-  std::string screenshot;
+  std::vector<Action> script;
   bool panel = false;  // also where a number of frames is asked for
   bool validate = false;
 };

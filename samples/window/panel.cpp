@@ -9,16 +9,10 @@
 namespace {
 
 constexpr float WIDTH = 380.0f;  // of the panel, pixels
-constexpr float LEAST_BUDGET_ms = 1.0f;
-constexpr float MOST_BUDGET_ms = 200.0f;
+constexpr const char* SCREENSHOT = "welkin.png";
 
 float milliseconds(uint64_t nanoseconds) {
   return static_cast<float>(nanoseconds) * 1e-6f;
-}
-
-// Drops the part that all names share.
-const char* shortName(const char* name, size_t prefix) {
-  return name + prefix;
 }
 
 // A slider's value counts when the user lets go of it: each makes tables and pipelines.
@@ -39,18 +33,20 @@ bool drawQuality(Settings& settings) {
     changed = true;
   }
   if (budget) {
-    ImGui::SliderFloat("budget, ms", &settings.timeBudget_ms, LEAST_BUDGET_ms, MOST_BUDGET_ms,
-                       "%.1f", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderFloat("budget, ms", &settings.timeBudget_ms, TIME_BUDGETS_ms.least,
+                       TIME_BUDGETS_ms.most, "%.1f",
+                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     changed = released() || changed;
   }
   return changed;
 }
 
 bool drawClouds(Settings& settings) {
-  ImGui::SliderFloat("droplets, um", &settings.dropletDiameter_um, 5.0f, 50.0f, "%.1f",
-                     ImGuiSliderFlags_AlwaysClamp);
+  ImGui::SliderFloat("droplets, um", &settings.dropletDiameter_um, DROPLET_DIAMETERS_um.least,
+                     DROPLET_DIAMETERS_um.most, "%.1f", ImGuiSliderFlags_AlwaysClamp);
   bool changed = released();
-  ImGui::SliderFloat("extinction, 1/m", &settings.cloudExtinction, 0.001f, 0.2f, "%.3f",
+  ImGui::SliderFloat("extinction, 1/m", &settings.cloudExtinction, CLOUD_EXTINCTIONS.least,
+                     CLOUD_EXTINCTIONS.most, "%.3f",
                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   changed = released() || changed;
   return changed;
@@ -76,20 +72,14 @@ void Panel::drawTimes() const {
 
 // Every pass with its time or the reason why it was left out.
 void Panel::drawPasses(const FrameReport& report) {
-  float sum = 0.0f;
-  for (const WlkPassStats& pass : report.passes) {
-    sum += milliseconds(pass.gpuTime_ns);
-  }
-  ImGui::Text("Welkin %.2f ms, estimated error %.1f %%", double{sum},
+  ImGui::Text("Welkin %.2f ms, estimated error %.1f %%", double{totalTime(report)},
               100.0 * double{report.relativeError});
   ImGui::Text("%u dispatches, %u draws, %u barriers, %.1f MiB", report.frame.dispatches,
               report.frame.draws, report.frame.barriers,
               static_cast<double>(report.frame.deviceMemory) / (1 << 20));
   if (report.quality.control != WLK_CONTROL_LEVEL) {
-    ImGui::Text(
-        "rung %u of %u to %u: %s", report.quality.rung, report.quality.lowestRung,
-        report.quality.highestRung,
-        shortName(wlkControlReasonName(report.quality.reason), sizeof "WLK_CONTROL_REASON_" - 1));
+    ImGui::Text("rung %u of %u to %u: %s", report.quality.rung, report.quality.lowestRung,
+                report.quality.highestRung, shortReason(report.quality));
   }
   if (!ImGui::BeginTable("passes", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV)) {
     return;
@@ -108,7 +98,7 @@ void Panel::drawPasses(const FrameReport& report) {
     if (pass.recorded != 0) {
       ImGui::Text("%.2f", double{milliseconds(pass.gpuTime_ns)});
     } else {
-      ImGui::TextDisabled("%s", shortName(wlkReasonName(pass.reason), sizeof "WLK_REASON_" - 1));
+      ImGui::TextDisabled("%s", shortReason(pass));
     }
   }
   ImGui::EndTable();
@@ -125,7 +115,8 @@ PanelRequest Panel::draw(Settings& settings, const FrameReport& report, bool own
     return request;
   }
   auto hour = static_cast<float>(settings.hour);
-  if (ImGui::SliderFloat("hour", &hour, 0.0f, 24.0f, "%.2f", ImGuiSliderFlags_AlwaysClamp)) {
+  if (ImGui::SliderFloat("hour", &hour, HOURS.least, HOURS.most, "%.2f",
+                         ImGuiSliderFlags_AlwaysClamp)) {
     settings.hour = double{hour};
   }
   if (ownClouds) {
@@ -136,7 +127,9 @@ PanelRequest Panel::draw(Settings& settings, const FrameReport& report, bool own
   if (report.ready) {
     drawPasses(report);
   }
-  request.screenshot = ImGui::Button("screenshot");
+  if (ImGui::Button("screenshot")) {
+    request.screenshot = SCREENSHOT;
+  }
   ImGui::InputTextWithHint("##scene", "scene.json", sceneFile_.data(), sceneFile_.size());
   ImGui::SameLine();
   if (ImGui::Button("load")) {

@@ -3,26 +3,20 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
-#include <vector>
 
+#include "report.hpp"
 #include "settings.hpp"
 
-// What Welkin tells of the last frame.
-struct FrameReport {
-  WlkFrameStats frame{};
-  std::vector<WlkPassStats> passes;
-  WlkQualityState quality{};
-  float relativeError = 0.0f;
-  bool ready = false;  // false before the first frame
-};
-
-// What the user asked for in this frame.
+// What the user, or a script, asked for in this frame.
 struct PanelRequest {
-  bool clouds = false;   // droplets or density have changed
-  bool quality = false;  // level or budget have changed
-  bool screenshot = false;
-  std::string scene;  // a file to load; empty: none
+  bool clouds = false;       // droplets or density have changed
+  bool quality = false;      // level or budget have changed
+  std::string screenshot;    // a PNG file to write; empty: none
+  std::string scene;         // a file to load; empty: none
+  std::optional<Size> size;  // of the window: the panel leaves that to its frame
+  bool report = false;       // print what the panel shows
 };
 
 class Panel {

@@ -19,13 +19,13 @@ constexpr double STEEPEST = 1.55;  // rad: short of straight up, where yaw loses
 
 }  // namespace
 
-Window::Window(uint32_t width, uint32_t height) {
+Window::Window(const Size& size) {
   if (glfwInit() != GLFW_TRUE) {
     throw std::runtime_error("GLFW finds no display");
   }
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-  window_ = glfwCreateWindow(static_cast<int>(width), static_cast<int>(height), "Welkin", nullptr,
-                             nullptr);
+  window_ = glfwCreateWindow(static_cast<int>(size.width), static_cast<int>(size.height), "Welkin",
+                             nullptr, nullptr);
   if (window_ == nullptr) {
     glfwTerminate();
     throw std::runtime_error("GLFW makes no window");
@@ -67,6 +67,10 @@ VkExtent2D Window::extent() const {
     glfwGetFramebufferSize(window_, &width, &height);
   }
   return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
+}
+
+void Window::resize(const Size& size) {
+  glfwSetWindowSize(window_, static_cast<int>(size.width), static_cast<int>(size.height));
 }
 
 bool Window::pressed(int key) const {

@@ -8,12 +8,13 @@
 
 #include "camera.hpp"
 #include "engine/gpu.hpp"
+#include "settings.hpp"
 
 struct GLFWwindow;
 
 class Window {
  public:
-  Window(uint32_t width, uint32_t height);
+  explicit Window(const Size& size);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
@@ -23,6 +24,8 @@ class Window {
   bool closed() const;
   // Pixels; waits while the window is minimised.
   VkExtent2D extent() const;
+  // As if the user had dragged its frame.
+  void resize(const Size& size);
   // Whose the input is: the panel's where it has the pointer or a text field.
   struct Captured {
     bool mouse = false;
