@@ -83,7 +83,7 @@ TEST(WindowSample, BadOptionsAreErrors) {
 }
 
 // z up, left-handed, 24-bit depth, two views, three frames in flight, a shared queue.
-TEST(QtSample, ShowsSkyAboveMeadowWithoutAMessage) {
+TEST(QtSample, ShowsACloudInASkyAboveMeadowWithoutAMessage) {
   SKIP_WITHOUT(WELKIN_QT);
   const std::string file = temporary("qt.png");
   ASSERT_EQ(runProgram(WELKIN_QT, "--validate --quality low --frames 5 --size " +
@@ -98,6 +98,19 @@ TEST(QtSample, ShowsSkyAboveMeadowWithoutAMessage) {
   EXPECT_GT(mean(picture, top, BLUE), mean(picture, top, RED) + 20.0);
   EXPECT_LT(mean(picture, top, BLUE), 250.0);
   EXPECT_GT(mean(picture, bottom, GREEN), mean(picture, bottom, BLUE) + 20.0);
+  // Each view has a cloud, and sky beside it: above it in the left one, below in the right one.
+  const struct {
+    const char* view;
+    Region cloud, sky;
+  } views[]{{"left", {10, 40, 60, 50}, {10, 5, 60, 20}},
+            {"right", {240, 20, 310, 50}, {290, 72, 318, 82}}};
+  for (const auto& [view, cloud, sky] : views) {
+    // Sunlit and white; red is what a sky has least of, so that it tells them apart best.
+    EXPECT_GT(mean(picture, cloud, RED), mean(picture, sky, RED) + 50.0) << view;
+    EXPECT_GT(mean(picture, cloud), mean(picture, sky) + 20.0) << view;
+    EXPECT_NEAR(mean(picture, cloud, RED), mean(picture, cloud, BLUE), 15.0) << view;
+    EXPECT_GT(mean(picture, sky, BLUE), mean(picture, sky, RED) + 50.0) << view;
+  }
 }
 
 TEST(QtSample, BadOptionsAreErrors) {
