@@ -95,10 +95,10 @@ class Pruner {
         live_(memory),
         used_(memory) {}
 
-  std::pmr::vector<uint32_t> run() {
-    std::pmr::vector<uint32_t> all(code_.begin(), code_.end(), memory_);
+  // False where the module has to stay as it is.
+  bool prune() {
     if (!read()) {
-      return all;
+      return false;
     }
     // Every round knows more values of phis from the branches found so far.
     for (size_t before = 0, now = blocks_.size() + 1; now != before;) {
@@ -109,11 +109,30 @@ class Pruner {
     for (const Block& block : blocks_) {
       if (block.reached && block.merge != NONE && opAt(block.merge) == OP_LOOP_MERGE &&
           !reached(code_[block.merge + 2])) {
-        return all;
+        return false;
       }
     }
     keepUsed();
-    return write();
+    return true;
+  }
+
+  // What is left, into memory that has room for all.
+  void write(std::pmr::vector<uint32_t>& out) const {
+    out.assign(code_.begin(), code_.begin() + bodies_);
+    for (uint32_t at = bodies_; at < code_.size();) {
+      if (opAt(at) != OP_LABEL) {
+        out.insert(out.end(), code_.begin() + at, code_.begin() + at + wordsAt(at));
+        at += wordsAt(at);
+        continue;
+      }
+      const Block& block = blocks_[blockOf_[code_[at + 1]]];
+      if (block.reached) {
+        writeBlock(block, out);
+      } else if (block.named) {
+        out.insert(out.end(), {code_[at], code_[at + 1], OP_UNREACHABLE | 1u << 16});
+      }
+      at = block.end;
+    }
   }
 
  private:
@@ -418,27 +437,6 @@ class Pruner {
     }
   }
 
-  std::pmr::vector<uint32_t> write() const {
-    std::pmr::vector<uint32_t> out(memory_);
-    out.reserve(code_.size());
-    out.assign(code_.begin(), code_.begin() + bodies_);
-    for (uint32_t at = bodies_; at < code_.size();) {
-      if (opAt(at) != OP_LABEL) {
-        out.insert(out.end(), code_.begin() + at, code_.begin() + at + wordsAt(at));
-        at += wordsAt(at);
-        continue;
-      }
-      const Block& block = blocks_[blockOf_[code_[at + 1]]];
-      if (block.reached) {
-        writeBlock(block, out);
-      } else if (block.named) {
-        out.insert(out.end(), {code_[at], code_[at + 1], OP_UNREACHABLE | 1u << 16});
-      }
-      at = block.end;
-    }
-    return out;
-  }
-
   std::span<const uint32_t> code_;
   std::span<const uint32_t> constants_;
   std::pmr::memory_resource* memory_;
@@ -457,10 +455,19 @@ class Pruner {
 std::pmr::vector<uint32_t> prunedCode(std::span<const uint32_t> code,
                                       std::span<const uint32_t> constants,
                                       std::pmr::memory_resource* memory) {
+  std::pmr::vector<uint32_t> all(code.begin(), code.end(), memory);
   if (code.size() <= HEADER_WORDS || code[0] != MAGIC) {
-    return {code.begin(), code.end(), memory};
+    return all;
   }
-  return Pruner(code, constants, memory).run();
+  // One block from the host for all of the work: 20 bytes for each id, and what grows with the
+  // code.
+  const size_t room = size_t{20} * code[3] + size_t{6} * code.size();
+  std::pmr::monotonic_buffer_resource work(room, memory);
+  Pruner pruner(code, constants, &work);
+  if (pruner.prune()) {
+    pruner.write(all);
+  }
+  return all;
 }
 
 }  // namespace welkin::vk

@@ -110,6 +110,30 @@ TEST_P(PrunedCodeOf, IsValidAndDoesWhatSpirvToolsLeave) {
   }
 }
 
+class CountingMemory : public std::pmr::memory_resource {
+ public:
+  int blocks = 0;
+  size_t bytes = 0;
+
+ private:
+  void* do_allocate(size_t size, size_t alignment) override {
+    ++blocks;
+    bytes += size;
+    return std::pmr::new_delete_resource()->allocate(size, alignment);
+  }
+  void do_deallocate(void* place, size_t size, size_t alignment) override {
+    std::pmr::new_delete_resource()->deallocate(place, size, alignment);
+  }
+  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+};
+
+TEST_P(PrunedCodeOf, TakesTwoBlocksOfTheHost) {
+  CountingMemory memory;
+  prunedCode(GetParam().code, {}, &memory);
+  EXPECT_EQ(memory.blocks, 2) << "the code and the work";
+  EXPECT_LT(memory.bytes, size_t{3} << 20);
+}
+
 TEST_P(PrunedCodeOf, KeepsAllThatIsNotDecided) {
   // Usual values of the module, the constants being none.
   const std::span<const uint32_t> code = GetParam().code;
