@@ -182,8 +182,8 @@ WLK_API WlkResult wlkVulkanForgetImage(WlkContext context, VkImage image);
  * away, but what earlier calls recorded must run. */
 
 /** Records pending uploads. Outside a render pass, in each frame that wlkBeginFrame begins, before
- *  the views; once more where something was created, uploaded or prepared since, or the views that
- *  follow are refused (WRONG_STATE). After a change
+ *  the views; once more where something was created, uploaded for the first time or prepared since,
+ *  or the views that follow are refused (WRONG_STATE). After a change
  *  of planet, sky or fog, or of the shares of a volume's fields or its optical depth, without
  *  wlkPrepare it also solves for some of the new light, see there. Record it even in frames that
  *  draw no view, or uploads wait. [C] Errors: WRONG_STATE before the first wlkBeginFrame; OUT_OF_*

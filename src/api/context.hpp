@@ -105,7 +105,7 @@ struct WlkContext_T {
   uint64_t frameIndex = 0;  // 0: no frame begun
   uint64_t completedFrame = 0;
   bool deviceLost = false;
-  uint64_t bytesUploaded = 0;  // by the last update
+  uint64_t bytesUploaded = 0;  // by the frame's updates
   uint32_t updateCopies = 0;
   std::pmr::vector<welkin::PendingUpload> pending;
   std::pmr::vector<welkin::Retired> retired;

@@ -62,7 +62,8 @@ WlkResult wlkGetQualityState(WlkContext context, WlkView view, WlkQualityState* 
     value.lowestRung = control ? range.lowest : range.highest;
     value.highestRung = range.highest;
     value.sliceCount = quality.sliceCount;
-    value.batchSize = quality.stored ? 0 : quality.batchSize;
+    const bool kept = quality.stored && !(v.prepared && v.resources.batches);
+    value.batchSize = kept ? 0 : quality.batchSize;
     value.lightBufferSize = quality.lightSize;
     value.volumeCells = quality.transport ? quality.transportCells : 0;
     value.time_ms = control ? static_cast<float>(governor.time) : 0.0f;

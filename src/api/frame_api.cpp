@@ -233,9 +233,9 @@ void copyInto(const vk::Dispatch& vk, VkCommandBuffer commands, const vk::Buffer
 
 void recordUpdate(WlkContext_T& c, VkCommandBuffer commands) {
   const vk::Dispatch& vk = c.device->vk();
-  c.bytesUploaded = 0;
-  c.updateCopies = 0;
   if (c.headless) {
+    c.bytesUploaded = 0;
+    c.updateCopies = 0;
     prepareSkyLight(c);
   } else {
     advanceSkyLight(c);
@@ -366,6 +366,8 @@ WlkResult wlkBeginFrame(WlkContext context, const WlkFrameInfo* frame) {
     }
     c.frameIndex = f.frameIndex;
     c.completedFrame = f.completedFrameIndex;
+    c.bytesUploaded = 0;
+    c.updateCopies = 0;
     for (uint32_t i = 0; i < c.views.slotCount(); ++i) {
       if (ViewState* view = c.views.at(i)) {
         c.harvest(*view);

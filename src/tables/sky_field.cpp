@@ -93,6 +93,7 @@ SkyField::Parts SkyField::gatheredAlong(double altitude, double viewMu, double s
   const SkyAxes axes(air_);
   // Frames ask for such rays: their steps lie on the stack.
   constexpr size_t USUAL_STEPS = 64;
+  static_assert(EYE_STEPS <= USUAL_STEPS);
   alignas(SkyStep) std::array<std::byte, USUAL_STEPS * sizeof(SkyStep)> room;
   std::pmr::monotonic_buffer_resource memory(room.data(), room.size());
   SkyRay plan{std::pmr::vector<SkyStep>(&memory)};

@@ -4,81 +4,12 @@
 #include <algorithm>
 #include <optional>
 
+#include "vk/spirv.hpp"
+
 namespace welkin::vk {
 namespace {
 
-// Opcodes and layouts: SPIR-V specification 1.6, section 3.42.
-enum Op : uint32_t {
-  OP_UNDEF = 1,
-  OP_EXTENDED = 12,
-  OP_CONSTANT_TRUE = 41,
-  OP_CONSTANT_FALSE = 42,
-  OP_CONSTANT = 43,
-  OP_SPEC_TRUE = 48,
-  OP_SPEC_FALSE = 49,
-  OP_SPEC_CONSTANT = 50,
-  OP_SPEC_OPERATION = 52,
-  OP_FUNCTION = 54,
-  OP_FUNCTION_END = 56,
-  OP_LOAD = 61,
-  OP_ACCESS_CHAIN = 65,
-  OP_IN_BOUNDS_ACCESS_CHAIN = 66,
-  OP_ARRAY_LENGTH = 68,
-  OP_DECORATE = 71,
-  OP_VECTOR_SHUFFLE = 79,
-  OP_SAMPLED_IMAGE = 86,
-  OP_IMAGE_GATHER = 97,
-  OP_IMAGE_READ = 98,
-  OP_IMAGE = 100,
-  OP_IMAGE_QUERY_SAMPLES = 107,
-  OP_CONVERT_F_TO_U = 109,
-  OP_IADD = 128,
-  OP_ISUB = 130,
-  OP_LOGICAL_EQUAL = 164,
-  OP_LOGICAL_NOT_EQUAL = 165,
-  OP_LOGICAL_OR = 166,
-  OP_LOGICAL_AND = 167,
-  OP_LOGICAL_NOT = 168,
-  OP_SELECT = 169,
-  OP_IEQUAL = 170,
-  OP_INOT_EQUAL = 171,
-  OP_UGREATER = 172,
-  OP_UGREATER_EQUAL = 174,
-  OP_ULESS = 176,
-  OP_ULESS_EQUAL = 178,
-  OP_BITWISE_OR = 197,
-  OP_BITWISE_AND = 199,
-  OP_BIT_COUNT = 205,
-  OP_PHI = 245,
-  OP_LOOP_MERGE = 246,
-  OP_SELECTION_MERGE = 247,
-  OP_LABEL = 248,
-  OP_BRANCH = 249,
-  OP_BRANCH_CONDITIONAL = 250,
-  OP_SWITCH = 251,
-  OP_UNREACHABLE = 255,
-};
-constexpr uint32_t MAGIC = 0x07230203;
-constexpr uint32_t HEADER_WORDS = 5;
-constexpr uint32_t SPEC_ID = 1;  // a decoration
 constexpr uint32_t NONE = ~0u;
-
-// Whether nothing but the result comes of it. Extended instructions: of GLSL.std.450, of which Modf
-// and Frexp write through a pointer.
-bool isPure(std::span<const uint32_t> words) {
-  const uint32_t op = words[0] & 0xffffu;
-  if (op == OP_EXTENDED) {
-    constexpr uint32_t MODF = 35;
-    constexpr uint32_t FREXP = 51;
-    return words.size() > 4 && words[4] != MODF && words[4] != FREXP;
-  }
-  return op == OP_UNDEF || op == OP_LOAD || op == OP_ACCESS_CHAIN ||
-         op == OP_IN_BOUNDS_ACCESS_CHAIN || op == OP_ARRAY_LENGTH ||
-         (op >= OP_VECTOR_SHUFFLE && op <= OP_SAMPLED_IMAGE) ||
-         (op > OP_SAMPLED_IMAGE && op <= OP_IMAGE_READ) ||
-         (op >= OP_IMAGE && op <= OP_IMAGE_QUERY_SAMPLES) ||
-         (op >= OP_CONVERT_F_TO_U && op <= OP_BIT_COUNT) || op == OP_PHI;
-}
 
 class Pruner {
  public:
@@ -93,7 +24,8 @@ class Pruner {
         definition_(code[3], NONE, memory),
         blocks_(memory),
         live_(memory),
-        used_(memory) {}
+        used_(memory),
+        lost_(memory) {}
 
   // False where the module has to stay as it is.
   bool prune() {
@@ -108,17 +40,24 @@ class Pruner {
     }
     for (const Block& block : blocks_) {
       if (block.reached && block.merge != NONE && opAt(block.merge) == OP_LOOP_MERGE &&
-          !reached(code_[block.merge + 2])) {
+          !turns(block)) {
         return false;
       }
     }
     keepUsed();
+    findLost();
     return true;
   }
 
   // What is left, into memory that has room for all.
   void write(std::pmr::vector<uint32_t>& out) const {
-    out.assign(code_.begin(), code_.begin() + bodies_);
+    out.assign(code_.begin(), code_.begin() + HEADER_WORDS);
+    for (uint32_t at = HEADER_WORDS; at < bodies_; at += wordsAt(at)) {
+      const bool names = opAt(at) == OP_NAME || opAt(at) == OP_DECORATE;
+      if (!names || !lost_[code_[at + 1]]) {
+        out.insert(out.end(), code_.begin() + at, code_.begin() + at + wordsAt(at));
+      }
+    }
     for (uint32_t at = bodies_; at < code_.size();) {
       if (opAt(at) != OP_LABEL) {
         out.insert(out.end(), code_.begin() + at, code_.begin() + at + wordsAt(at));
@@ -168,6 +107,9 @@ class Pruner {
         bodies_ = bodies_ == NONE ? at : bodies_;
         first = true;
       } else if (op == OP_LABEL) {
+        if (inside) {
+          return false;  // ended by what is not known here
+        }
         block = {code_[at + 1], at, 0, 0, NONE, first};
         inside = true;
         first = false;
@@ -185,7 +127,11 @@ class Pruner {
         specId_[code_[at + 1]] = code_[at + 3];
       }
     }
-    return bodies_ != NONE && !blocks_.empty();
+    bool known = bodies_ != NONE && !inside;
+    for (const Block& one : blocks_) {
+      forTargets(one, [&](uint32_t label) { known = known && blockOf_[label] != NONE; });
+    }
+    return known;
   }
 
   // Values that the constants decide, of all that is reached.
@@ -345,6 +291,13 @@ class Pruner {
     return count;
   }
 
+  // Whether a loop still has a turn: a block that goes back to its head.
+  bool turns(const Block& head) const {
+    return reached(code_[head.merge + 2]) &&
+           std::any_of(blocks_.begin() + blockOf_[head.label], blocks_.end(),
+                       [&](const Block& block) { return leads(block.label, head.label); });
+  }
+
   // Calls `visit` with the place of each instruction that stays if it is used: all of the blocks
   // reached, without those that decided branches no longer need.
   template <class Visit>
@@ -400,6 +353,19 @@ class Pruner {
     }
   }
 
+  // Marks the ids that nothing defines any more.
+  void findLost() {
+    lost_.assign(code_[3], false);
+    for (const Block& block : blocks_) {
+      for (uint32_t at = block.begin; at < block.end; at += wordsAt(at)) {
+        const bool label = at == block.begin && (block.reached || block.named);
+        if (!label && !used_[at]) {
+          lost_[resultOf(instruction(at))] = true;
+        }
+      }
+    }
+  }
+
   bool droppedMerge(const Block& block) const {
     return decided(block) != NONE && opAt(block.merge) == OP_SELECTION_MERGE;
   }
@@ -447,6 +413,7 @@ class Pruner {
   std::pmr::vector<Block> blocks_;
   std::pmr::vector<uint32_t> live_;  // places whose operands are still to be marked
   std::pmr::vector<bool> used_;      // of words where what stays begins
+  std::pmr::vector<bool> lost_;      // ids
   uint32_t bodies_ = NONE;           // where functions begin
 };
 

@@ -28,10 +28,8 @@ const Host& host() {
     auto info = welkin::make<WlkContextInfo>();
     info.next = &headless;
     info.deviceMemoryLimit = MEMORY_LIMIT;
-    if (!checkResult(wlkCreateContext(WLK_API_VERSION, &info, &host.context))) {
-      std::fprintf(stderr, "no device to draw with\n");
-      std::exit(0);
-    }
+    require(checkResult(wlkCreateContext(WLK_API_VERSION, &info, &host.context)),
+            "there is a device to draw with");
     const auto medium = welkin::make<WlkMediumInfo>();
     require(checkResult(wlkCreateMedium(host.context, &medium, &host.medium)), "there is a medium");
     return host;

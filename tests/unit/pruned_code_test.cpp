@@ -11,14 +11,38 @@
 #include <string>
 
 #include "aerial_comp_spv.h"
+#include "ambient_cells_comp_spv.h"
+#include "ambient_gather_comp_spv.h"
+#include "ambient_restrict_comp_spv.h"
+#include "ambient_source_comp_spv.h"
+#include "ambient_sweep_comp_spv.h"
+#include "ambient_view_comp_spv.h"
 #include "composite_blend_frag_spv.h"
 #include "composite_comp_spv.h"
 #include "eye_march_comp_spv.h"
 #include "eye_slices_comp_spv.h"
 #include "eye_spread_comp_spv.h"
+#include "light_depth_comp_spv.h"
+#include "light_slices_comp_spv.h"
+#include "shadow_map_comp_spv.h"
+#include "shadow_resolve_comp_spv.h"
 #include "sky_table_comp_spv.h"
+#include "surface_cells_comp_spv.h"
+#include "surface_cover_comp_spv.h"
+#include "surface_faces_comp_spv.h"
 #include "surface_map_comp_spv.h"
 #include "surface_shade_comp_spv.h"
+#include "surface_shell_comp_spv.h"
+#include "transport_cells_comp_spv.h"
+#include "transport_depth_comp_spv.h"
+#include "transport_extrapolate_comp_spv.h"
+#include "transport_gather_comp_spv.h"
+#include "transport_response_comp_spv.h"
+#include "transport_restrict_comp_spv.h"
+#include "transport_source_comp_spv.h"
+#include "transport_sweep_comp_spv.h"
+#include "transport_view_comp_spv.h"
+#include "volume_distance_comp_spv.h"
 
 namespace welkin::vk {
 namespace {
@@ -142,21 +166,43 @@ TEST_P(PrunedCodeOf, KeepsAllThatIsNotDecided) {
 
 INSTANTIATE_TEST_SUITE_P(
     Passes, PrunedCodeOf,
-    testing::Values(Pass{"Aerial", aerial_comp_spv}, Pass{"Composite", composite_comp_spv},
-                    Pass{"Blend", composite_blend_frag_spv}, Pass{"EyeMarch", eye_march_comp_spv},
-                    Pass{"EyeSlices", eye_slices_comp_spv}, Pass{"EyeSpread", eye_spread_comp_spv},
-                    Pass{"SkyTable", sky_table_comp_spv}, Pass{"SurfaceMap", surface_map_comp_spv},
-                    Pass{"SurfaceShade", surface_shade_comp_spv}),
+    testing::Values(
+        Pass{"Aerial", aerial_comp_spv}, Pass{"AmbientCells", ambient_cells_comp_spv},
+        Pass{"AmbientGather", ambient_gather_comp_spv},
+        Pass{"AmbientRestrict", ambient_restrict_comp_spv},
+        Pass{"AmbientSource", ambient_source_comp_spv},
+        Pass{"AmbientSweep", ambient_sweep_comp_spv}, Pass{"AmbientView", ambient_view_comp_spv},
+        Pass{"CompositeBlend", composite_blend_frag_spv}, Pass{"Composite", composite_comp_spv},
+        Pass{"EyeMarch", eye_march_comp_spv}, Pass{"EyeSlices", eye_slices_comp_spv},
+        Pass{"EyeSpread", eye_spread_comp_spv}, Pass{"LightDepth", light_depth_comp_spv},
+        Pass{"LightSlices", light_slices_comp_spv}, Pass{"ShadowMap", shadow_map_comp_spv},
+        Pass{"ShadowResolve", shadow_resolve_comp_spv}, Pass{"SkyTable", sky_table_comp_spv},
+        Pass{"SurfaceCells", surface_cells_comp_spv}, Pass{"SurfaceCover", surface_cover_comp_spv},
+        Pass{"SurfaceFaces", surface_faces_comp_spv}, Pass{"SurfaceMap", surface_map_comp_spv},
+        Pass{"SurfaceShade", surface_shade_comp_spv}, Pass{"SurfaceShell", surface_shell_comp_spv},
+        Pass{"TransportCells", transport_cells_comp_spv},
+        Pass{"TransportDepth", transport_depth_comp_spv},
+        Pass{"TransportExtrapolate", transport_extrapolate_comp_spv},
+        Pass{"TransportGather", transport_gather_comp_spv},
+        Pass{"TransportResponse", transport_response_comp_spv},
+        Pass{"TransportRestrict", transport_restrict_comp_spv},
+        Pass{"TransportSource", transport_source_comp_spv},
+        Pass{"TransportSweep", transport_sweep_comp_spv},
+        Pass{"TransportView", transport_view_comp_spv},
+        Pass{"VolumeDistance", volume_distance_comp_spv}),
     [](const auto& one) { return std::string(one.param.name); });
 
-Code assemble(const std::string& body) {
+Code assemble(const std::string& body, const std::string& names = "",
+              const std::string& decorations = "") {
   const std::string text = R"(
     OpCapability Shader
     %std = OpExtInstImport "GLSL.std.450"
     OpMemoryModel Logical GLSL450
     OpEntryPoint GLCompute %main "main" %out
     OpExecutionMode %main LocalSize 1 1 1
+)" + names + R"(
     OpDecorate %choice SpecId 2
+    )" + decorations + R"(
     OpDecorate %block Block
     OpMemberDecorate %block 0 Offset 0
     OpDecorate %out DescriptorSet 0
@@ -273,6 +319,43 @@ TEST(PrunedCode, LeavesAModuleWhoseLoopEndsBeforeItsFirstTurn) {
   EXPECT_EQ(faultsOf(turns), "");
   EXPECT_LT(turns.size(), code.size());
   EXPECT_EQ(actsOf(turns)[OP_STORE], 1);
+}
+
+TEST(PrunedCode, LeavesAModuleWhoseLoopHasOneTurn) {
+  const Code code = assemble(R"(
+    OpBranch %head
+    %head = OpLabel
+    %count = OpPhi %uint %zero %entry %next %again
+    OpLoopMerge %after %again None
+    OpBranch %again
+    %again = OpLabel
+    OpStore %place %count
+    %next = OpIAdd %uint %count %one
+    OpBranchConditional %choice %head %after
+    %after = OpLabel
+    OpReturn)");
+  EXPECT_EQ(prunedOf(code, std::array<uint32_t, 3>{0, 0, 0}), code);
+}
+
+TEST(PrunedCode, DecoratesNothingThatIsGone) {
+  const Code code =
+      assemble(R"(
+    OpSelectionMerge %meet None
+    OpBranchConditional %choice %left %meet
+    %left = OpLabel
+    %sum = OpFAdd %float %half %half
+    %bits = OpBitcast %uint %sum
+    OpStore %place %bits
+    OpBranch %meet
+    %meet = OpLabel
+    OpReturn)",
+               "OpName %left \"left\"\nOpName %sum \"sum\"", "OpDecorate %sum NoContraction");
+  const Code pruned = prunedOf(code, std::array<uint32_t, 3>{0, 0, 0});
+  EXPECT_EQ(faultsOf(pruned), "");
+  EXPECT_EQ(textOf(pruned).find("NoContraction"), std::string::npos);
+  const Code kept = prunedOf(code, std::array<uint32_t, 3>{0, 0, 1});
+  EXPECT_EQ(faultsOf(kept), "");
+  EXPECT_NE(textOf(kept).find("NoContraction"), std::string::npos);
 }
 
 TEST(PrunedCode, KeepsTheBlockWhereBranchesMeetThatNeverDo) {
