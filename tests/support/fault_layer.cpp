@@ -3,6 +3,7 @@
 
 #include <vulkan/vulkan.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <tuple>
@@ -50,6 +51,10 @@ enum Call {
 struct Layer {
   std::array<PFN_vkVoidFunction, CALL_COUNT> real{};
   std::array<int64_t, CALL_COUNT> live{};
+  std::array<uint64_t, CALL_COUNT> callsOf{};
+  std::map<VkDeviceMemory, VkDeviceSize> memory;
+  uint64_t memoryBytes = 0;
+  uint64_t mostMemory = 0;
   uint64_t calls = 0;
   uint64_t any = 0;
   uint64_t undone = 0;
@@ -75,6 +80,25 @@ constexpr bool countsAsObject(Call call) {
 }
 constexpr Call kindOf(Call call) {
   return call == CALL_CreateGraphicsPipelines ? CALL_CreateComputePipelines : call;
+}
+
+void askForMemory(VkDevice, const VkMemoryAllocateInfo* info, const VkAllocationCallbacks*,
+                  VkDeviceMemory*) {
+  layer.mostMemory = std::max(layer.mostMemory, layer.memoryBytes + info->allocationSize);
+}
+
+void takeMemory(VkDevice, const VkMemoryAllocateInfo* info, const VkAllocationCallbacks*,
+                const VkDeviceMemory* made) {
+  layer.memory[*made] = info->allocationSize;
+  layer.memoryBytes += info->allocationSize;
+}
+
+void giveMemory(VkDevice, VkDeviceMemory memory, const VkAllocationCallbacks*) {
+  const auto found = layer.memory.find(memory);
+  if (found != layer.memory.end()) {
+    layer.memoryBytes -= found->second;
+    layer.memory.erase(found);
+  }
 }
 
 constexpr bool needsPipeline(Call call) {
@@ -105,6 +129,10 @@ struct Wrapper<Result(VKAPI_PTR*)(Arguments...)> {
   template <Call WHICH>
   static VKAPI_ATTR Result VKAPI_CALL fallible(Arguments... arguments) {
     ++layer.any;
+    ++layer.callsOf[WHICH];
+    if constexpr (WHICH == CALL_AllocateMemory) {
+      askForMemory(arguments...);
+    }
     if (failsNow()) {
       layer.failed = Name<WHICH>::TEXT;
       return layer.code;
@@ -114,6 +142,9 @@ struct Wrapper<Result(VKAPI_PTR*)(Arguments...)> {
                               : reinterpret_cast<Function>(layer.real[WHICH])(arguments...);
     if (result >= 0 && countsAsObject(WHICH)) {
       ++layer.live[kindOf(WHICH)];  // the library makes pipelines one by one
+      if constexpr (WHICH == CALL_AllocateMemory) {
+        takeMemory(arguments...);
+      }
     }
     return result;
   }
@@ -126,6 +157,9 @@ struct Wrapper<Result(VKAPI_PTR*)(Arguments...)> {
       return handle != VK_NULL_HANDLE;
     }(arguments...);
     layer.live[UNDONE] -= given ? 1 : 0;
+    if constexpr (WHICH == CALL_FreeMemory) {
+      giveMemory(arguments...);
+    }
     if (layer.hollow && needsPipeline(WHICH)) {
       return;
     }
@@ -225,6 +259,8 @@ void FaultLayer::count(const char* kind, int64_t change) {
 
 void FaultLayer::failAt(uint64_t k, VkResult code, bool forever) {
   layer.calls = 0;
+  layer.callsOf = {};
+  layer.mostMemory = layer.memoryBytes;
   layer.any = 0;
   layer.undone = 0;
   layer.at = k;
@@ -239,6 +275,23 @@ void FaultLayer::makeHollowPipelines(bool hollow) {
 
 uint64_t FaultLayer::calls() {
   return layer.calls;
+}
+
+uint64_t FaultLayer::calls(const char* name) {
+  const auto found =
+      std::find_if(replacements().begin(), replacements().end(),
+                   [&](const auto& one) { return std::strcmp(one.name, name) == 0; });
+  return found == replacements().end()
+             ? 0
+             : layer.callsOf[static_cast<size_t>(found - replacements().begin())];
+}
+
+uint64_t FaultLayer::memory() {
+  return layer.memoryBytes;
+}
+
+uint64_t FaultLayer::mostMemory() {
+  return layer.mostMemory;
 }
 
 uint64_t FaultLayer::anyCalls() {

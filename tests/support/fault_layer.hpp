@@ -31,12 +31,18 @@ class FaultLayer {
   static void makeHollowPipelines(bool hollow);
   // Calls that can fail since the last failAt.
   static uint64_t calls();
+  // Of these, those of one function: "vkAllocateMemory".
+  static uint64_t calls(const char* name);
   // All calls of device functions since then, those that return nothing included.
   static uint64_t anyCalls();
   // Of these, those that destroy or free.
   static uint64_t destructions();
   // Device functions that were asked for and are handed out uncounted. There should be none.
   static const std::set<std::string>& unknown();
+  // Bytes of the device's memory that are allocated, and the most since the last failAt that were
+  // or would have been, had the driver given what it was asked for.
+  static uint64_t memory();
+  static uint64_t mostMemory();
   // The call that failed last, "" if none did.
   static const char* failed();
   // Objects created and not destroyed, by the function that creates them.

@@ -76,6 +76,7 @@ void SceneBuilder::create(const void* chained) {
   auto info = make<WlkContextInfo>();
   info.next = chained;
   info.allocator = options_.allocator;
+  info.deviceMemoryLimit = options_.deviceMemoryLimit;
   info.log = keepMessage;
   info.logUser = messages_.get();
   check(wlkCreateContext(WLK_API_VERSION, &info, &context));

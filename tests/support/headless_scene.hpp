@@ -50,6 +50,7 @@ struct SceneOptions {
   // The library's default ambient light, of sky and ground; else none, so that volumes have the
   // light of the sun alone.
   bool ambient = false;
+  uint64_t deviceMemoryLimit = 0;
   WlkAllocator allocator{};
 };
 
