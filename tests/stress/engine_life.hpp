@@ -52,18 +52,24 @@ struct Kind {
   bool setters = false;    // all that changes or asks something, and an engine's own volume image
   // Of so many calls of Vulkan one fails, where not all do. No multiple of 3: codes take turns.
   uint64_t stride = 1;
+  // The same of the host's allocations: of wlkPrepare, which makes nine in ten, and of all else.
+  uint64_t preparing = 1;
+  uint64_t other = 1;
 };
-constexpr Kind WHOLE{"whole", true,  true, WLK_SCATTERING_ALL_ORDERS, false, false,
-                     false,   false, 23};
-constexpr Kind CLOUD{"cloud", false, true, WLK_SCATTERING_FORWARD};
-constexpr Kind AIR{"air", true, false, WLK_SCATTERING_FORWARD};
-constexpr Kind TARGETS{"targets", false, true, WLK_SCATTERING_FORWARD, true, false,
-                       false,     false, 2};
-constexpr Kind DROPLETS{"droplets", false, true, WLK_SCATTERING_FORWARD, true, true,
-                        false,      false, 61};
-constexpr Kind SURFACE{"surface", false, true, WLK_SCATTERING_FORWARD, false, false,
-                       true,      false, 4};
-constexpr Kind SETTERS{"setters", false, true, WLK_SCATTERING_FORWARD, true, false, true, true, 31};
+constexpr Kind WHOLE{"whole", true, true, WLK_SCATTERING_ALL_ORDERS, false, false, false, false,
+                     23,      331,  7};
+constexpr Kind CLOUD{"cloud", false, true, WLK_SCATTERING_FORWARD, false, false, false,
+                     false,   1,     19};
+constexpr Kind AIR{"air", true, false, WLK_SCATTERING_FORWARD, false, false, false, false, 1, 67};
+constexpr Kind TARGETS{"targets", false, true, WLK_SCATTERING_FORWARD, true, false, false,
+                       false,     2,     23};
+// The other stride finds one of wlkUploadVolumeDiameters.
+constexpr Kind DROPLETS{"droplets", false, true, WLK_SCATTERING_FORWARD, true, true, false, false,
+                        61,         1301,  32};
+constexpr Kind SURFACE{"surface", false, true, WLK_SCATTERING_FORWARD, false, false, true, false,
+                       4,         149,   7};
+constexpr Kind SETTERS{"setters", false, true, WLK_SCATTERING_FORWARD, true, false, true,
+                       true,      31,    191};
 
 class Life {
  public:
