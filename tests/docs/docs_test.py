@@ -7,7 +7,8 @@ code       what stands in ```c, glsl and python compiles or runs; the README's C
            is in a language that no test reads (cmake: tests/package/documents.py)
 commands   programs, options, presets and files of shell blocks exist
 reference  Doxygen has no complaint, and every function and structure of the API has its text
-tests      every test that docs/reliability.md names exists, and no row of its tables lacks one
+tests      every test that docs/reliability.md names exists, no row of its tables lacks one, and its
+           tables of sweeps and faults are those of docs/results
 """
 import os
 import pathlib
@@ -215,6 +216,11 @@ def reference():
     return count
 
 
+def output_of(tool):
+    return subprocess.run([SOURCE / "tools" / tool], capture_output=True, text=True,
+                          check=True).stdout
+
+
 def tests():
     page = SOURCE / "docs" / "reliability.md"
     known = set()
@@ -233,10 +239,14 @@ def tests():
             last = row.rstrip(" |").rpartition(" | ")[2]
             if not re.search(r"`\*?[A-Z]\w*\.", last) and not last.startswith("none: "):
                 report(page, f"no test and no reason in: {row}")
-    table = subprocess.run([SOURCE / "tools" / "sweep_table"], capture_output=True, text=True,
-                           check=True).stdout
-    if table not in text:
+    if output_of("sweep_table") not in text:
         report(page, "its table of sweeps is not that of tools/sweep_table")
+    *tables, leaks = output_of("fault_table").strip().split("\n\n")
+    for table in tables:
+        if f"\n\n{table}\n\n" not in text:
+            report(page, f"its table of faults is not that of tools/fault_table:\n{table}")
+    if leaks != "leaks: 0":
+        report(page, f"results/faults.csv has {leaks}")
     return len(named)
 
 

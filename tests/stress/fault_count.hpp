@@ -11,7 +11,10 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <map>
+#include <set>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -37,6 +40,26 @@ inline uint64_t strideOfAll() {
   return text == nullptr ? 0 : std::strtoull(text, nullptr, 10);
 }
 
+// How many faults of one life and code docs/results/faults.csv has of each function.
+inline std::map<std::string, uint64_t> recordedFaults(const std::string& source,
+                                                      const std::string& life,
+                                                      const std::string& code) {
+  std::map<std::string, uint64_t> faults;
+  std::ifstream file(WELKIN_RECORDED_FAULTS);
+  std::string line;
+  while (std::getline(file, line)) {
+    std::array<std::string, 6> columns;
+    std::istringstream row(line);
+    for (std::string& column : columns) {
+      std::getline(row, column, ',');
+    }
+    if (columns[0] == source && columns[1] == life && columns[3] == code) {
+      faults[columns[2]] += std::stoull(columns[4]);
+    }
+  }
+  return faults;
+}
+
 class FaultCounts {
  public:
   void add(const char* entry, const char* code, bool clean) {
@@ -50,6 +73,13 @@ class FaultCounts {
       sum += key.first == entry ? count.faults : 0;
     }
     return sum;
+  }
+  std::set<std::string> entries() const {
+    std::set<std::string> names;
+    for (const auto& [key, count] : counts_) {
+      names.insert(key.first);
+    }
+    return names;
   }
   void report(const char* source, const char* life) const {
     const char* path = std::getenv("WELKIN_FAULT_RESULTS");
