@@ -113,6 +113,10 @@ struct Pass {
   std::span<const uint32_t> code;
 };
 
+void PrintTo(const Pass& pass, std::ostream* out) {
+  *out << pass.name;
+}
+
 class PrunedCodeOf : public testing::TestWithParam<Pass> {};
 
 TEST_P(PrunedCodeOf, IsValidAndDoesWhatSpirvToolsLeave) {
