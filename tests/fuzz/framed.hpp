@@ -101,6 +101,14 @@ class Handles {
   std::vector<Handle> known_;
 };
 
+// Calls of `run` until the input is used up, or so many.
+template <typename Run>
+void call(Run& run, const Input& input, uint32_t most) {
+  for (uint32_t n = 0; n < most && !input.empty(); ++n) {
+    run.call();
+  }
+}
+
 template <typename T>
 void requireLight(const T* values, size_t count, T highest, const char* claim) {
   for (size_t i = 0; i < count; ++i) {

@@ -302,8 +302,6 @@ class Run {
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   fuzz::Input input(data, size);
   fuzz::Run run(input);
-  for (uint32_t n = 0; n < fuzz::MAX_CALLS && !input.empty(); ++n) {
-    run.call();
-  }
+  fuzz::call(run, input, fuzz::MAX_CALLS);
   return 0;
 }

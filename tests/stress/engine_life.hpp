@@ -57,19 +57,17 @@ struct Kind {
   uint64_t other = 1;
 };
 constexpr Kind WHOLE{"whole", true, true, WLK_SCATTERING_ALL_ORDERS, false, false, false, false,
-                     23,      331,  7};
-constexpr Kind CLOUD{"cloud", false, true, WLK_SCATTERING_FORWARD, false, false, false,
-                     false,   1,     19};
-constexpr Kind AIR{"air", true, false, WLK_SCATTERING_FORWARD, false, false, false, false, 1, 67};
+                     23,      61,   7};
+constexpr Kind CLOUD{"cloud", false, true, WLK_SCATTERING_FORWARD};
+constexpr Kind AIR{"air", true, false, WLK_SCATTERING_FORWARD, false, false, false, false, 1, 11};
 constexpr Kind TARGETS{"targets", false, true, WLK_SCATTERING_FORWARD, true, false, false,
-                       false,     2,     23};
-// The other stride finds one of wlkUploadVolumeDiameters.
+                       false,     2,     5};
 constexpr Kind DROPLETS{"droplets", false, true, WLK_SCATTERING_FORWARD, true, true, false, false,
-                        61,         1301,  32};
+                        61,         1301,  1301};
 constexpr Kind SURFACE{"surface", false, true, WLK_SCATTERING_FORWARD, false, false, true, false,
-                       4,         149,   7};
-constexpr Kind SETTERS{"setters", false, true, WLK_SCATTERING_FORWARD, true, false, true,
-                       true,      31,    191};
+                       4,         29,    7};
+constexpr Kind SETTERS{"setters", false, true, WLK_SCATTERING_FORWARD, true, false, true, true,
+                       31,        41,    3};
 
 class Life {
  public:

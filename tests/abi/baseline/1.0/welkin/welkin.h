@@ -15,8 +15,7 @@
  *    A context alone is a pointer: it must be null or alive.
  *  - Functions that fail change nothing and leave what they would fill as it was, but for
  *    wlkCreateContext, which writes null, wlkPrepare and wlkVulkanCmd..., see there.
- *    wlkGetLastError names the
- *    structure and the field at fault.
+ *    wlkGetLastError names the structure and the field at fault.
  *  - Every function may return INVALID_ARGUMENT for null pointers and values out of their ranges,
  *    INVALID_HANDLE, UNKNOWN_STRUCT and STRUCT_TOO_NEW for the heads of structures, and
  *    OUT_OF_HOST_MEMORY; those that need the context's device DEVICE_LOST once it is lost; further
