@@ -8,6 +8,7 @@ SceneOptions victimOptions() {
   SceneOptions options;
   options.width = 16;
   options.height = 12;
+  options.volumeCells = 8;
   return options;
 }
 

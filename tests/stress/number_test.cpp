@@ -57,7 +57,13 @@ void abuseNumbers(
   for (const NumberField& field : fields) {
     bool refused = false;
     for (uint32_t i = 0; i < field.count; ++i) {
-      for (const double value : poisons(field.isDouble)) {
+      const std::vector<double>& values = poisons(field.isDouble);
+      for (size_t k = 0; k < values.size(); ++k) {
+        // All in a field's first number, which its others are checked like: those take turns.
+        if (i > 0 && (k + i) % 3 != 0) {
+          continue;
+        }
+        const double value = values[k];
         SCOPED_TRACE(std::string(field.name) + "[" + std::to_string(i) +
                      "] = " + std::to_string(value));
         const WlkResult result = call(poisoned(other, field, i, value));

@@ -12,6 +12,7 @@ SceneOptions small() {
   SceneOptions options;
   options.width = 17;
   options.height = 13;
+  options.volumeCells = 8;
   return options;
 }
 

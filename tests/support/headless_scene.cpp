@@ -199,6 +199,7 @@ WlkView SceneBuilder::addView(const SceneOptions& options) const {
   quality.level = options.level;
   quality.scattering = options.scattering;
   quality.volumeResolution = options.volumeResolution;
+  quality.volumeCells = options.volumeCells;
   quality.flags = options.qualityFlags;
   check(wlkSetQuality(context, made, &quality));
   return made;
@@ -229,6 +230,7 @@ void SceneBuilder::setQuality(uint32_t level, uint64_t flags) const {
   quality.level = level;
   quality.scattering = options_.scattering;
   quality.volumeResolution = options_.volumeResolution;
+  quality.volumeCells = options_.volumeCells;
   quality.flags = flags;
   check(wlkSetQuality(context, view, &quality));
 }

@@ -47,6 +47,7 @@ struct SceneOptions {
   uint64_t qualityFlags = 0;
   // Tests look at single pixels; half_resolution_test.cpp has the levels' choice.
   uint32_t volumeResolution = WLK_VOLUME_RESOLUTION_FULL;
+  uint32_t volumeCells = 0;  // as WlkQuality has it: 8 take the least time
   // The library's default ambient light, of sky and ground; else none, so that volumes have the
   // light of the sun alone.
   bool ambient = false;
