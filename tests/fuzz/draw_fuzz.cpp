@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "framed.hpp"
+#include "scene_calls.hpp"
 
 namespace fuzz {
 namespace {
@@ -12,7 +12,6 @@ namespace {
 constexpr uint32_t MAX_CALLS = 24;
 constexpr uint32_t WIDTH = 8;
 constexpr uint32_t HEIGHT = 6;
-constexpr uint32_t EDGE = 6;  // voxels, at most
 constexpr uint64_t MEMORY_LIMIT = uint64_t{512} << 20;
 
 // One device for all inputs: its pipelines take longer than a picture.
@@ -39,57 +38,18 @@ const Host& host() {
 
 class Run {
  public:
-  explicit Run(Input& input) : input_(input), context_(host().context) {
-    auto info = welkin::make<WlkViewInfo>();
-    info.width = WIDTH;
-    info.height = HEIGHT;
-    require(checkResult(wlkCreateView(context_, &info, &view_)), "there is a view");
-    quality();
-    const auto sky = welkin::make<WlkSky>();
-    (void)checkResult(wlkSetSky(context_, &sky));
-    camera();
-  }
-  ~Run() {
-    (void)wlkDestroyVolume(context_, volume_);
-    (void)wlkDestroySurface(context_, surface_);
-    (void)wlkDestroyView(context_, view_);
-    (void)wlkSetSky(context_, nullptr);
-    (void)wlkSetFog(context_, nullptr);
-    (void)wlkSetAbsorber(context_, nullptr);
-    (void)wlkSetAmbient(context_, nullptr);
-    (void)wlkSetPlanet(context_, nullptr);
-    (void)wlkSetLights(context_, 0, 0, nullptr);
-  }
+  explicit Run(Input& input)
+      : input_(input),
+        context_(host().context),
+        view_(makeView()),
+        scene_(input, context_, host().medium, view_) {}
+  ~Run() { (void)wlkDestroyView(context_, view_); }
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
 
   void call() {
-    switch (input_.below(12)) {
-      case 0:
-        return set(wlkSetSky);
-      case 1:
-        return set(wlkSetFog);
-      case 2:
-        return set(wlkSetAbsorber);
-      case 3:
-        return set(wlkSetAmbient);
-      case 4:
-        return set(wlkSetPlanet);
-      case 5:
-        return lights();
-      case 6:
-        return volume();
-      case 7:
-        return surface();
-      case 8:
-        return camera();
-      case 9:
-        return quality();
-      case 10:
-        return upload();
-      default:
-        return draw();
-    }
+    const uint32_t which = input_.below(SceneCalls::COUNT + 1);
+    which < SceneCalls::COUNT ? scene_.call(which) : draw();
   }
 
   void draw() {
@@ -131,121 +91,20 @@ class Run {
 
  private:
   Input& input_;
-  WlkContext context_ = nullptr;
-  WlkView view_{};
-  WlkVolume volume_{};
-  WlkSurface surface_{};
-  uint32_t size_[3] = {};
+  WlkContext context_;
+  WlkView view_;
+  SceneCalls scene_;
+
+  static WlkView makeView() {
+    auto info = welkin::make<WlkViewInfo>();
+    info.width = WIDTH;
+    info.height = HEIGHT;
+    WlkView view{};
+    require(checkResult(wlkCreateView(host().context, &info, &view)), "there is a view");
+    return view;
+  }
 
   bool prepare() { return checkResult(wlkPrepare(context_)); }
-
-  template <typename T>
-  void set(WlkResult (*function)(WlkContext, const T*)) {
-    Framed<T> value(input_);
-    (void)checkResult(function(context_, input_.oneIn(8) ? nullptr : value.get()));
-  }
-
-  void lights() {
-    WlkLight two[2];
-    for (WlkLight& one : two) {
-      Framed<WlkLight> light(input_);
-      (void)light.get();
-      one = light.value;
-      one.next = nullptr;
-    }
-    (void)checkResult(wlkSetLights(context_, input_.below(3), sizeof two[0], two));
-  }
-
-  void camera() {
-    Framed<WlkCamera> camera(input_);
-    // Near the ground, most of the time.
-    camera.value.position[1] += input_.oneIn(4) ? input_.number<double>() : 100.0;
-    (void)checkResult(wlkSetCamera(context_, view_, camera.get()));
-  }
-
-  // Of any level, and small: what is asked for in pixels, slices and cells is time.
-  void quality() {
-    Framed<WlkQuality> quality(input_);
-    WlkQuality& q = quality.value;
-    q.level = input_.below(4);
-    q.sliceCount = 1 + input_.below(24);
-    q.batchSize = input_.oneIn(4) ? 1 + input_.below(8) : 0;
-    q.lightBufferSize = 16 + input_.below(32);
-    q.volumeCells = 8;
-    static constexpr uint32_t SCATTERING[] = {WLK_SCATTERING_SINGLE, WLK_SCATTERING_FORWARD,
-                                              WLK_SCATTERING_ALL_ORDERS};
-    q.scattering = SCATTERING[input_.below(3)];
-    (void)checkResult(wlkSetQuality(context_, view_, quality.get()));
-  }
-
-  // A box around the eye or before it, mostly.
-  void box(double (&transform)[12]) {
-    const double edge = 100.0 * (1 + input_.below(40));
-    for (int i = 0; i < 3; ++i) {
-      transform[4 * i] = edge;
-      transform[9 + i] = edge * (input_.below(5) - 2.5);
-    }
-    while (input_.oneIn(3)) {
-      transform[input_.below(12)] = input_.number<double>();
-    }
-  }
-
-  void volume() {
-    (void)wlkDestroyVolume(context_, volume_);
-    Framed<WlkVolumeInfo> info(input_);
-    WlkVolumeField field{host().medium, std::abs(input_.number<float>()), 0};
-    info.value.fields = &field;
-    info.value.fieldStride = sizeof field;
-    info.value.fieldCount = 1;
-    for (size_t i = 0; i < 3; ++i) {
-      size_[i] = 1 + input_.below(EDGE);
-      info.value.size[i] = size_[i];
-    }
-    (void)checkResult(wlkCreateVolume(context_, info.get(), &volume_));
-    double transform[12] = {};
-    box(transform);
-    (void)checkResult(wlkSetVolumeTransform(context_, volume_, transform));
-    upload();
-  }
-
-  void upload() {
-    float voxels[EDGE * EDGE * EDGE];
-    const bool any = input_.oneIn(4);
-    for (float& one : voxels) {
-      one = any ? input_.number<float>() : static_cast<float>(input_.below(3));
-    }
-    Framed<WlkVolumeUpload> info(input_);
-    std::copy_n(size_, 3, info.value.extent);
-    info.value.data = voxels;
-    info.value.dataSize = sizeof voxels;
-    (void)checkResult(wlkUploadVolume(context_, volume_, info.get()));
-  }
-
-  void surface() {
-    static constexpr uint32_t CLOSED[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
-    (void)wlkDestroySurface(context_, surface_);
-    Framed<WlkSurfaceInfo> info(input_);
-    float positions[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-    if (input_.oneIn(4)) {
-      positions[input_.below(12)] = input_.number<float>();
-    }
-    info.value.medium = host().medium;
-    info.value.positions = positions;
-    info.value.indices = CLOSED;
-    info.value.vertexStride = 12;
-    info.value.vertexCount = 4;
-    info.value.triangleCount = 4;
-    if (!checkResult(wlkCreateSurface(context_, info.get(), &surface_))) {
-      return;
-    }
-    double transform[12] = {};
-    box(transform);
-    (void)checkResult(wlkSetSurfaceTransform(context_, surface_, transform));
-    if (input_.oneIn(2)) {
-      Framed<WlkSurfaceDetail> detail(input_);
-      (void)checkResult(wlkSetSurfaceDetail(context_, surface_, detail.get()));
-    }
-  }
 };
 
 }  // namespace

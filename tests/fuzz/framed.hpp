@@ -44,6 +44,9 @@ class Framed {
     }
   }
 
+  // A structure that is right but for its header, now and then.
+  Framed(Input& input, const T& right) : value(right), input_(input) {}
+
   // To call once the pointers in `value` are set: what was overwritten is no pointer.
   T* get() {
     if (!input_.oneIn(24)) {
