@@ -16,6 +16,8 @@ using welkin::test::EngineScene;
 
 constexpr uint32_t MAX_CALLS = 24;
 constexpr uint32_t MAX_RECORDED = 6;  // calls in a frame
+constexpr uint32_t OWN = 7;           // calls that are no frame
+constexpr uint32_t FRAMES = 12;       // as likely as so many of them
 constexpr uint64_t MEMORY_LIMIT = uint64_t{512} << 20;
 
 // What a frame leaves when a call in it runs out of something: commands that may not be submitted.
@@ -60,6 +62,11 @@ class Run {
   explicit Run(Input& input)
       : input_(input), host_(Host::get()), images_(host_.images), view_(makeView()) {
     scene_.emplace(input, host_.context, host_.medium, view_);
+    if (input_.oneIn(2)) {
+      aerial();
+      check(wlkSetVolumeDistance(host_.context, view_, 1));
+      map();
+    }
   }
   ~Run() {
     scene_.reset();
@@ -82,7 +89,7 @@ class Run {
     if (thrownAway_) {
       return;
     }
-    const uint32_t which = input_.below(SceneCalls::COUNT + 9);
+    const uint32_t which = input_.below(SceneCalls::COUNT + OWN + FRAMES);
     if (which < SceneCalls::COUNT) {
       return scene_->call(which);
     }
