@@ -111,9 +111,5 @@ class Run {
 }  // namespace fuzz
 
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  fuzz::Input input(data, size);
-  fuzz::Run run(input);
-  fuzz::call(run, input, fuzz::MAX_CALLS);
-  run.draw();
-  return 0;
+  return fuzz::run<fuzz::Run>(data, size, fuzz::MAX_CALLS, &fuzz::Run::draw);
 }

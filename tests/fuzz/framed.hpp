@@ -104,12 +104,18 @@ class Handles {
   std::vector<Handle> known_;
 };
 
-// Calls of `run` until the input is used up, or so many.
+// A Run's calls until the input is used up, or `most` of them; then `last` of it, if there is one.
 template <typename Run>
-void call(Run& run, const Input& input, uint32_t most) {
+int run(const uint8_t* data, size_t size, uint32_t most, void (Run::*last)() = nullptr) {
+  Input input(data, size);
+  Run calls(input);
   for (uint32_t n = 0; n < most && !input.empty(); ++n) {
-    run.call();
+    calls.call();
   }
+  if (last != nullptr) {
+    (calls.*last)();
+  }
+  return 0;
 }
 
 template <typename T>

@@ -118,7 +118,7 @@ class SceneCalls {
   // A box around the eye or before it, mostly.
   void box(double (&transform)[12]) {
     const double edge = 100.0 * (1 + input_.below(40));
-    for (int i = 0; i < 3; ++i) {
+    for (size_t i = 0; i < 3; ++i) {
       transform[4 * i] = edge;
       transform[9 + i] = edge * (input_.below(5) - 2.5);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Views at the edge: along and against the sun, inside a cloud, far away, far from the origin, odd
 // sizes, every composite mode and slicing.
+#include <cmath>
 #include <limits>
 
 #include "stress/abuse.hpp"

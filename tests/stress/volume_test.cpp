@@ -60,7 +60,7 @@ TEST(GarbageVolume, OfRandomBitsInAnyFormatIsFinite) {
   std::mt19937 random(2004);
   constexpr int ROUNDS = 67 / WELKIN_SPARSER;  // 201 volumes, fewer instrumented
   for (int round = 0; round < ROUNDS; ++round) {
-    std::vector<uint32_t> bits(9 * 7 * 5);
+    std::vector<uint32_t> bits(size_t{9} * 7 * 5);
     for (uint32_t& word : bits) {
       word = static_cast<uint32_t>(random());
     }
