@@ -130,6 +130,7 @@ class Run {
   uint32_t composite_ = WLK_COMPOSITE_COMPUTE;
   bool half_ = false;
   bool thrownAway_ = false;
+  bool otherUsed_ = false;  // by the call that is made: no image has two roles
 
   static void check(WlkResult result) { (void)checkResult(result); }
 
@@ -196,10 +197,9 @@ class Run {
     info.value.size[0] = VOXELS.width;
     info.value.size[1] = VOXELS.height;
     info.value.size[2] = VOXELS.depth + (input_.oneIn(8) ? 1 : 0);
-    check(wlkCreateVolume(host_.context, info.get(), &volume_));
-    const double edge = 100.0 * (1 + input_.below(40));
-    const double transform[12] = {edge, 0, 0, 0, edge, 0, 0, 0, edge, -edge / 2, 0, -2 * edge};
-    check(wlkSetVolumeTransform(host_.context, volume_, transform));
+    const bool made = checkResult(wlkCreateVolume(host_.context, info.get(), &volume_));
+    const Place place(input_);
+    place.require(made, wlkSetVolumeTransform(host_.context, volume_, place.transform));
     Framed<WlkVulkanImage> image(
         input_, EngineScene::describe(images_.voxels, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL));
     check(wlkVulkanSetVolumeImage(host_.context, volume_, input_.oneIn(8) ? 1 : 0, image.get()));
@@ -239,6 +239,7 @@ class Run {
     // What is blended lies on what was there.
     Images::fill(images_.color32, 0.5f);
     Images::fill(images_.color16, 0.0f);
+    Images::fill(images_.other, 0.5f);
     try {
       host_.spy.run([this](VkCommandBuffer commands) {
         recorded(input_.oneIn(16) ? WLK_SUCCESS : wlkVulkanCmdUpdate(host_.context, commands));
@@ -291,7 +292,6 @@ class Run {
     place.emplace(input_, right);
     return place->get();
   }
-  bool otherUsed_ = false;  // by the call that is made: no image has two roles
 
   void recordView(VkCommandBuffer commands) {
     otherUsed_ = false;

@@ -10,6 +10,29 @@
 
 namespace fuzz {
 
+// Where a volume or a surface lies.
+struct Place {
+  // A box around the eye or beside it, mostly.
+  explicit Place(Input& input) {
+    const double edge = 100.0 * (1 + input.below(40));
+    for (size_t i = 0; i < 3; ++i) {
+      transform[5 * i] = edge;
+      transform[4 * i + 3] = edge * (input.below(5) - 2.5);
+    }
+    while (input.oneIn(3)) {
+      transform[input.below(12)] = input.number<double>();
+      isBox = false;
+    }
+  }
+  // What was `made` lies there if it is a box; else that may be refused.
+  void require(bool made, WlkResult result) const {
+    fuzz::require(checkResult(result) || !made || !isBox, "a box is a place");
+  }
+
+  double transform[12] = {};  // row-major 3x4
+  bool isBox = true;
+};
+
 class SceneCalls {
  public:
   static constexpr uint32_t COUNT = 11;
@@ -36,8 +59,6 @@ class SceneCalls {
   }
   SceneCalls(const SceneCalls&) = delete;
   SceneCalls& operator=(const SceneCalls&) = delete;
-
-  [[nodiscard]] WlkVolume volumeHandle() const { return volume_; }
 
   // `which` is less than COUNT.
   void call(uint32_t which) {
@@ -115,18 +136,6 @@ class SceneCalls {
     (void)checkResult(wlkSetQuality(context_, view_, quality.get()));
   }
 
-  // A box around the eye or before it, mostly.
-  void box(double (&transform)[12]) {
-    const double edge = 100.0 * (1 + input_.below(40));
-    for (size_t i = 0; i < 3; ++i) {
-      transform[4 * i] = edge;
-      transform[9 + i] = edge * (input_.below(5) - 2.5);
-    }
-    while (input_.oneIn(3)) {
-      transform[input_.below(12)] = input_.number<double>();
-    }
-  }
-
   void volume() {
     (void)wlkDestroyVolume(context_, volume_);
     Framed<WlkVolumeInfo> info(input_);
@@ -138,10 +147,9 @@ class SceneCalls {
       size_[i] = 1 + input_.below(EDGE);
       info.value.size[i] = size_[i];
     }
-    (void)checkResult(wlkCreateVolume(context_, info.get(), &volume_));
-    double transform[12] = {};
-    box(transform);
-    (void)checkResult(wlkSetVolumeTransform(context_, volume_, transform));
+    const bool made = checkResult(wlkCreateVolume(context_, info.get(), &volume_));
+    const Place place(input_);
+    place.require(made, wlkSetVolumeTransform(context_, volume_, place.transform));
     upload();
   }
 
@@ -175,9 +183,8 @@ class SceneCalls {
     if (!checkResult(wlkCreateSurface(context_, info.get(), &surface_))) {
       return;
     }
-    double transform[12] = {};
-    box(transform);
-    (void)checkResult(wlkSetSurfaceTransform(context_, surface_, transform));
+    const Place place(input_);
+    place.require(true, wlkSetSurfaceTransform(context_, surface_, place.transform));
     if (input_.oneIn(2)) {
       Framed<WlkSurfaceDetail> detail(input_);
       (void)checkResult(wlkSetSurfaceDetail(context_, surface_, detail.get()));

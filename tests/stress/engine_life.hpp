@@ -63,6 +63,7 @@ constexpr Kind CLOUD{"cloud", false, true, WLK_SCATTERING_FORWARD, false, false,
 constexpr Kind AIR{"air", true, false, WLK_SCATTERING_FORWARD, false, false, false, false, 4, 31};
 constexpr Kind TARGETS{"targets", false, true, WLK_SCATTERING_FORWARD, true, false, false,
                        false,     2,     13};
+// Droplets have no more than the first faults of a function.
 constexpr Kind DROPLETS{"droplets", false, true, WLK_SCATTERING_FORWARD, true, true, false, false,
                         10007,      10007, 10007};
 constexpr Kind SURFACE{"surface", false, true, WLK_SCATTERING_FORWARD, false, false, true, false,

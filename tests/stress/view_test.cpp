@@ -61,6 +61,7 @@ TEST(ViewAndSun, ExactlyAlongAndAgainstEachOtherAreFinite) {
     quality.slicing = slicing;
     ASSERT_EQ(wlkSetQuality(scene.context, scene.view, &quality), WLK_SUCCESS);
     for (const Case& test : cases) {
+      // Along the axis, and where the sign is negative against it.
       for (const float diameter : {0.0f, -0.0f, 0.0093f, -0.0093f}) {
         const float sign = std::signbit(diameter) ? -1.0f : 1.0f;
         setLight(scene, {sign * test.axis[0], sign * test.axis[1], sign * test.axis[2]},

@@ -297,12 +297,12 @@ WLK_API const char* wlkControlReasonName(uint32_t reason);
  *  changed; without it the next frames show the old light while wlkVulkanCmdUpdate solves for the
  *  new, 4 ms of CPU time each, 24 in clear air, 42 to 126 in fog, and allocates when it begins and
  *  ends. Light that is scattered more than once sees the fields of a volume as one mixture. It
- * follows what was uploaded: exactly when this is called, else by wlkVulkanCmdUpdate once a field's
- * share of the volume's extinction has changed by more than 0.05, for 14 ms and one buffer. Views
- * whose eye has risen above 1.5 scale heights (12 km on Earth) are drawn more sharply at the edge
- * of night far below if this is called again. [C] Errors: WRONG_STATE in CPU mode, LIMIT_EXCEEDED
- * (cells, froxels, or pixels of views and maps beyond the device's storage buffers), OUT_OF_*,
- * DEVICE_LOST. */
+ *  follows what was uploaded: exactly when this is called, else by wlkVulkanCmdUpdate once a
+ *  field's share of the volume's extinction has changed by more than 0.05, for 14 ms and one
+ *  buffer. Views whose eye has risen above 1.5 scale heights (12 km on Earth) are drawn more
+ *  sharply at the edge of night far below if this is called again. [C] Errors: WRONG_STATE in CPU
+ *  mode, LIMIT_EXCEEDED (cells, froxels, or pixels of views and maps beyond the device's storage
+ *  buffers), OUT_OF_*, DEVICE_LOST. */
 WLK_API WlkResult wlkPrepare(WlkContext context);
 
 /** Which frame begins, and which are over. */
