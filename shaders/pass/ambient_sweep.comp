@@ -26,7 +26,7 @@ void main() {
   if (ray >= count.x * count.y) {
     return;
   }
-  ivec2 start = ivec2(ray % count.x, ray / count.x);
+  ivec2 start = ivec2(uint(ray) % uint(count.x), ray / count.x);
   int slices = size[d.axes.x];
   vec3 incoming = late((push.flags & AMBIENT_INCOMING) != 0u) ? volume.incoming[direction].xyz
                                                               : vec3(0.0f);

@@ -18,8 +18,8 @@ vec3 fineAt(vec3 v) {
   vec2 at = vec2(azimuth, clamp(zenith, 0.0f, float(FINE_ZENITHS - 1)));
   ivec2 low = ivec2(at);
   vec2 f = at - vec2(low);
-  int a = low.x % FINE_AZIMUTHS;
-  int b = (low.x + 1) % FINE_AZIMUTHS;
+  int a = int(uint(low.x) % uint(FINE_AZIMUTHS));
+  int b = int(uint(low.x + 1) % uint(FINE_AZIMUTHS));
   int top = low.y * FINE_AZIMUTHS;
   int under = min(low.y + 1, FINE_ZENITHS - 1) * FINE_AZIMUTHS;
   return mix(mix(volume.fine[top + a].xyz, volume.fine[top + b].xyz, f.x),

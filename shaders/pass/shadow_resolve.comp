@@ -40,8 +40,8 @@ vec3 layerAt(ivec2 texel) {
 // Of an empty texel, so that filters find ends in all four: the mean of its neighbours'.
 vec2 endsAround(ivec2 texel) {
   vec3 sum = vec3(0.0f);
-  for (int k = 0; k < 9; ++k) {
-    ivec2 beside = texel + ivec2(k % 3 - 1, k / 3 - 1);
+  for (uint k = 0u; k < 9u; ++k) {
+    ivec2 beside = texel + ivec2(k % 3u, k / 3u) - 1;
     beside = clamp(beside, ivec2(0), ivec2(map.width, map.height) - 1);
     vec3 layer = layerAt(beside);
     sum += layer.x > 0.0f ? vec3(1.0f, layer.yz) : vec3(0.0f);

@@ -96,7 +96,7 @@ vec3 fogSourceAt(float altitude, float sunMu, vec3 v) {
   float above =
       frame.fogTable.x * safeExp(-clamp(altitude / frame.skyView.z, 0.0f, 30.0f));
   vec3 node;
-  node.x = PER_PI * acos(v.y) * float(FOG_VIEWS - 1);
+  node.x = PER_PI * acos(clamp(v.y, -1.0f, 1.0f)) * float(FOG_VIEWS - 1);
   node.y = sqrt(PER_PI * acos(clamp(v.x / max(flat_, 1.0e-6f), -1.0f, 1.0f))) *
            float(FOG_AZIMUTHS - 1);
   node.z = min(logOnePlus(above) * frame.fogTable.y, 1.0f) * float(FOG_HEIGHTS - 1);

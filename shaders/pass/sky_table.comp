@@ -109,7 +109,7 @@ void main() {
   ray.altitude = frame.eye.w;
   ray.viewMu = clamp(horizon + range * rise / (1.0f + bend * (1.0f - rise)), -1.0f, 1.0f);
   ray.sunMu = light.irradiance.w;
-  float azimuth = 1.0f - 2.0f * float(place.x % SKY_AZIMUTHS) / float(SKY_AZIMUTHS - 1);
+  float azimuth = 1.0f - 2.0f * float(uint(place.x) % uint(SKY_AZIMUTHS)) / float(SKY_AZIMUTHS - 1);
   float sines = sqrt(max((1.0f - ray.viewMu) * (1.0f + ray.viewMu), 0.0f)) *
                 sqrt(max((1.0f - ray.sunMu) * (1.0f + ray.sunMu), 0.0f));
   ray.viewSun = ray.viewMu * ray.sunMu + sines * azimuth;

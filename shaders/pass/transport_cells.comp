@@ -32,7 +32,7 @@ vec4 momentsOf(int level, int cell) {
 void finest(int cell) {
   ivec3 size = 2 * volume.size[0].xyz;
   ivec3 corner = 2 * cellOf(volume.size[0].xyz, cell);
-  int taps = late(int(volume.peak.y));
+  uint taps = uint(late(int(volume.peak.y)));
   vec4 beta = vec4(0.0f);
   float lit = 0.0f;
   float light = 0.0f;
@@ -41,7 +41,7 @@ void finest(int cell) {
   for (int part = 0; part < 8; ++part) {
     ivec3 fine = corner + ivec3(part & 1, (part >> 1) & 1, part >> 2);
     vec4 here = vec4(0.0f);
-    for (int tap = 0; tap < taps * taps * taps; ++tap) {
+    for (uint tap = 0u; tap < taps * taps * taps; ++tap) {
       vec3 offset = (vec3(tap % taps, (tap / taps) % taps, tap / (taps * taps)) + 0.5f) /
                     float(taps);
       here += fieldExtinction(boxOf((vec3(fine) + offset) / vec3(size)));

@@ -22,7 +22,7 @@ void main() {
   if (ray >= count.x * count.y) {
     return;
   }
-  ivec2 start = ivec2(ray % count.x, ray / count.x);
+  ivec2 start = ivec2(uint(ray) % uint(count.x), ray / count.x);
   int slices = late(size[d.axes.x]);
   vec3 along = vec3(0.0f);  // of a slice's path, over the grid
   along[d.axes.x] = float(d.axes.w) / float(slices);

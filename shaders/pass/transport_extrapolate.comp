@@ -52,7 +52,8 @@ void main() {
     }
     int own = termAt(term, 0, cell);
     float change = (layer ? LAYER_STEP : STEP) * (kept[own] - sum);
-    bool value = layer && term < 2 * FIRST_TERMS && term % FIRST_TERMS < 2 * LAYER_RINGS;
+    int ofOrder = term < FIRST_TERMS ? term : term - FIRST_TERMS;
+    bool value = layer && ofOrder < FIRST_TERMS && ofOrder < 2 * LAYER_RINGS;
     if (value || term == 0 || term == FIRST_TERMS || term == 2 * FIRST_TERMS) {
       // Means over all directions, which bound the rest, or over those of a ring.
       float most = MOST * max(kept[own], 0.0f);

@@ -2,7 +2,9 @@
 // How rays through a grid meet its cells (interface/transport.glsl).
 
 ivec3 cellOf(ivec3 size, int index) {
-  return ivec3(index % size.x, (index / size.x) % size.y, index / (size.x * size.y));
+  uint i = uint(index);
+  uvec2 n = uvec2(size.xy);
+  return ivec3(i % n.x, (i / n.x) % n.y, i / (n.x * n.y));
 }
 
 ivec3 strideOf(ivec3 size) {
@@ -15,9 +17,9 @@ vec2 turned(float x, int n) {
   return vec2(turns, x - turns * float(n));
 }
 
+// In [0, n). Vulkan leaves remainders of negative numbers undefined, and GPUs do.
 int modulo(int i, int n) {
-  int r = i % n;
-  return r < 0 ? r + n : r;
+  return i < 0 ? n - 1 - int(uint(-1 - i) % uint(n)) : int(uint(i) % uint(n));
 }
 
 // The four rays around a cell in slice k, as indices i + n j, and their weights. A ray that has

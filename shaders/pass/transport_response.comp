@@ -70,7 +70,7 @@ void main() {
   bool moment = node >= RESPONSE_NODES + directions;
   vec3 s = volume.travel.xyz;
   float zenith = float(node / RESPONSE_AZIMUTHS) * (PI / float(RESPONSE_ZENITHS - 1));
-  float azimuth = float(node % RESPONSE_AZIMUTHS) * (PI / float(RESPONSE_AZIMUTHS - 1));
+  float azimuth = float(uint(node) % uint(RESPONSE_AZIMUTHS)) * (PI / float(RESPONSE_AZIMUTHS - 1));
   vec3 v = vec3(sin(zenith) * cos(azimuth), sin(zenith) * sin(azimuth), cos(zenith));
   if (toDirection) {  // harmonics of degree 1
     v = volume.rows[direction * 4].wyz / 1.7320508f;
@@ -84,7 +84,7 @@ void main() {
   vec2 all = vec2(0.0f);
   for (int level = 0; level < 2 * HEIGHTS; ++level) {
     int side = level / HEIGHTS;
-    float height = HEIGHT[level % HEIGHTS];
+    float height = HEIGHT[uint(level) % uint(HEIGHTS)];
     float sine = sqrt(1.0f - height * height);
     vec3 sumOnce = vec3(0.0f);  // times 1, x, y
     vec3 sumTwice = vec3(0.0f);
@@ -102,7 +102,7 @@ void main() {
       sumTwice += passes * second * functions;
       weights += moment ? vec2(used, second) : passes * vec2(first, second);
     }
-    float share = WEIGHT[level % HEIGHTS];
+    float share = WEIGHT[uint(level) % uint(HEIGHTS)];
     for (int ring = 0; ring < LAYER_RINGS; ++ring) {
       float value = share * onRing(ring, height);
       once[side * LAYER_RINGS + ring] += value * sumOnce.x;

@@ -41,7 +41,7 @@ void main() {
     return;
   }
   bool first = late((push.flags & TRANSPORT_FIRST_SWEEP) != 0u);
-  ivec2 start = ivec2(ray % count.x, ray / count.x);
+  ivec2 start = ivec2(uint(ray) % uint(count.x), ray / count.x);
   int slices = size[d.axes.x];
   float radiance = 0.0f;
   // The slab of a slice ends half-way to the next one, or where the ray leaves the grid; its source

@@ -25,6 +25,7 @@ struct Options {
   std::string commit;
   std::vector<std::string> pack;
   size_t rounds = 0;
+  uint32_t timedWidth = 0;
   bool quick = false;
   bool levelsOnly = false;
   bool keepConverged = false;
@@ -40,6 +41,9 @@ constexpr int CONVERGED_BITS = 13;
 
 std::vector<Case> chosenCases(const Options& options) {
   std::vector<Case> cases = readCases(options.cases);
+  for (Case& one : cases) {
+    one.timedWidth = std::max(one.timedWidth, options.timedWidth);
+  }
   if (options.names.empty()) {
     return cases;
   }
@@ -170,6 +174,9 @@ void declare(CLI::App& app, Options& options) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--rounds", options.rounds, "Interleaved rounds (default 30; quick 10)");
+  app.add_option("--timed-width", options.timedWidth,
+                 "Least width of the pictures that are timed: GPUs draw a case's own in no time")
+      ->check(CLI::Range(1, 8192));
   app.add_flag("--quick", options.quick, "Fewer methods and rounds");
   app.add_flag("--levels-only", options.levelsOnly, "The four quality levels only");
   app.add_option("--out", options.json, "Write the results to this file (JSON)");

@@ -11,6 +11,7 @@
 #include "bench/surface_view_scene.hpp"
 #include "reference/mesh_shapes.hpp"
 #include "reference/slab_solver.hpp"
+#include "support/on_gpu.hpp"
 #include "tables/surface_source.hpp"
 #include "unit/surface_picture.hpp"
 
@@ -18,6 +19,8 @@ namespace bench {
 namespace {
 
 namespace rt = welkin::reference;
+using welkin::test::FILTER_STEP;
+using welkin::test::onGpu;
 
 constexpr double PI = std::numbers::pi;
 constexpr double RADIANS = PI / 180;
@@ -105,7 +108,9 @@ double slabRule(const SlabView& slab) {
 
 TEST(SurfaceView, MiddleOfASlabIsTheCanonicalSlab) {
   // Float, light maps of 16-bit parts and six stretches of the chord; measured 2e-3.
-  constexpr double PICTURE = 0.01;
+  // Filters of a GPU take ln J in steps of 1/256 of its difference between nodes, which is up to 7
+  // in depth; measured 0.022.
+  const double picture = onGpu() ? 0.01 + 0.5 * 7 * FILTER_STEP : 0.01;
   // Of the rule's source: linear filters of 0.02 to 0.06 rms in each of five axes (docs/models.md),
   // which lie one way where ln J is curved.
   constexpr double SOURCE = 0.07;
@@ -126,7 +131,7 @@ TEST(SurfaceView, MiddleOfASlabIsTheCanonicalSlab) {
           const double rule = truth.single + slabRule(slab);
           const auto text = "slab-" + std::to_string(tau) + " sun " + std::to_string(sun) +
                             (top ? " top " : " bottom ") + std::to_string(zenith);
-          EXPECT_NEAR(found / rule, 1, PICTURE) << text;
+          EXPECT_NEAR(found / rule, 1, picture) << text;
           EXPECT_NEAR(found / truth.total, 1, tau < 10 ? THIN : SOURCE) << text;
           worst = std::max(worst, std::fabs(found / rule - 1));
           std::printf("%s: %.3f of the truth, %.4f of the rule\n", text.c_str(),

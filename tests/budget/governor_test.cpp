@@ -11,6 +11,7 @@
 #include "stress/counting_allocator.hpp"
 #include "support/engine_scene.hpp"
 #include "support/library_allocations.hpp"
+#include "support/on_gpu.hpp"
 
 namespace welkin::test {
 namespace {
@@ -115,8 +116,9 @@ TEST(GovernedView, MakesAndWritesNothingWhenTheRungChanges) {
 
 TEST(GovernedView, ARungIsThePictureOfItsNumbers) {
   // Light-buffer coordinates are rounded to a float's 2^-24 of the larger buffer instead of their
-  // own: a millionth of a texel's difference of light.
-  constexpr double BOUND = 1e-5;
+  // own: a millionth of a texel's difference of light. A GPU's filters may take another step there,
+  // for one fetch in a hundred or so: positions are a thousand times finer than steps, texels 64.
+  const double bound = onGpu() ? FILTER_STEP / 64 : 1e-5;
   for (const uint32_t scattering : {WLK_SCATTERING_FORWARD, WLK_SCATTERING_ALL_ORDERS}) {
     const uint32_t level = WLK_QUALITY_MEDIUM;
     GovernedScene governed(test::governed(WLK_CONTROL_REPORTED_TIME, level, scattering));
@@ -139,7 +141,7 @@ TEST(GovernedView, ARungIsThePictureOfItsNumbers) {
       GovernedScene asked(plain);
       asked.scene.renderFrame();
       const Image own = asked.scene.read();
-      EXPECT_LE(relativeRms(what.second, own), BOUND) << rung;
+      EXPECT_LE(relativeRms(what.second, own), bound) << rung;
     }
     EXPECT_GE(rungs.size(), 3u);
     EXPECT_FALSE(rungs.begin()->second.second == rungs.rbegin()->second.second);

@@ -8,12 +8,15 @@
 #include "codec.hpp"
 #include "engine.hpp"
 #include "picture.hpp"
+#include "support/on_gpu.hpp"
 
 namespace {
 
 using namespace engine;
 using welkin::check;
 using welkin::make;
+using welkin::test::FILTER_STEP;
+using welkin::test::onGpu;
 
 constexpr VkExtent2D EXTENT{61, 45};
 constexpr VkFormat COLOR = VK_FORMAT_R32G32B32A32_SFLOAT;
@@ -76,9 +79,12 @@ TEST_F(EngineVolume, EnginesImageEqualsTheUploadedVolume) {
     VkFormat format;
     Tolerance tolerance;
   };
-  constexpr std::array cases{Case{VK_FORMAT_R16_SFLOAT, SAME_SHADER},
-                             Case{VK_FORMAT_R32_SFLOAT, SAME_SHADER},
-                             Case{VK_FORMAT_R16_UNORM, fine}, Case{VK_FORMAT_R8_UNORM, coarse}};
+  // Bricks lie elsewhere in their image: a filter of a GPU may take another step there, which is of
+  // 1/16 here, for one fetch in a hundred or so.
+  constexpr double step = depth * FILTER_STEP / 16 / 64;
+  const Tolerance same = onGpu() ? Tolerance{{step, step, step}, 1e-5} : SAME_SHADER;
+  const std::array cases{Case{VK_FORMAT_R16_SFLOAT, same}, Case{VK_FORMAT_R32_SFLOAT, same},
+                         Case{VK_FORMAT_R16_UNORM, fine}, Case{VK_FORMAT_R8_UNORM, coarse}};
   std::vector<std::vector<float>> pictures;
   for (const Case& c : cases) {
     const Image image(engine_.device(), c.format, {CLOUD_SIZE, CLOUD_SIZE, CLOUD_SIZE},

@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "support/aerial_scene.hpp"
+#include "support/on_gpu.hpp"
 
 namespace welkin::test {
 namespace {
@@ -102,6 +103,9 @@ TEST(AerialFroxels, AreOpaquePixelsAtTheirDistance) {
   constexpr uint32_t H = 12;
   const double distanceError = 3e-7 + 3e-6;  // of the depth value and of lavapipe's power
   const double condition = 3;  // d ln L / d ln d and dT / d ln d, at most: inside the ball
+  // A segment through fog is refined or not by a rounding, for 1.5e-3 of its light; where a fused
+  // product makes that differ, measured 2.8e-5.
+  const double refined = onGpu() ? 1e-4 : 0;
   for (const Scenery& scenery : SCENERIES) {
     WlkAerialPerspective info = froxels(W, H, 9);
     info.distance = 16000;
@@ -124,7 +128,7 @@ TEST(AerialFroxels, AreOpaquePixelsAtTheirDistance) {
         worst = std::max(worst, worstDifference(s, slice));
       }
       std::printf("%s, slabs in batches of %u: worst %.2g\n", scenery.name, batchSize, worst);
-      EXPECT_LT(worst, distanceError * condition) << scenery.name << ", " << batchSize;
+      EXPECT_LT(worst, distanceError * condition + refined) << scenery.name << ", " << batchSize;
     }
     EXPECT_TRUE(s.scene.device().messages().empty()) << s.scene.device().messages().front();
   }
@@ -354,8 +358,8 @@ TEST(AerialFroxels, HalfFloatsAreRounded) {
     pictures.push_back(s.texels(0));
     pictures.push_back(s.texels(1));
   }
-  const float step = 1.0f / 2048;  // half an ulp of a half float, relative
-  const float least = 3.0e-8f;     // half the smallest
+  const auto step = static_cast<float>(HALF_FLOAT_STORE);
+  const float least = 6.0e-8f;  // the smallest
   for (size_t image = 0; image < 2; ++image) {
     for (size_t i = 0; i < pictures[image].size(); ++i) {
       const float truth = pictures[image][i];

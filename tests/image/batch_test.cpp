@@ -34,8 +34,8 @@ double difference(const Picture& a, const Picture& b) {
 TEST(Batches, AnySizeGivesTheSamePicture) {
   // A stretch's ends are rounded to 2^-24 of their distance (2 km: 1.2e-4 m), 1e-5 of the optical
   // depth of a slab; neighbours move together, so the error does not add up over the slabs. Bright
-  // pixels stand up to 10 times above the mean.
-  constexpr double BOUND = 10 * 1e-5;
+  // pixels stand up to 10 times above the mean. GPUs may round twice as much: fused or not.
+  constexpr double BOUND = 2 * 10 * 1e-5;
   SlicingScene scene(24);
   scene.addVolume(noiseCloudField(), scene.henyeyGreenstein(CLOUD_G));
   double worst = 0;

@@ -298,7 +298,8 @@ TEST_F(SkyLightTurned, LightsAddUp) {
   std::fill_n(lights[1].irradiance, 3, 0.25f);
   check(wlkSetLights(scene.context, 2, sizeof *lights, lights));
   const Image sum = scene.render();
-  EXPECT_LE(relativeRms(sum, one), 1e-6);
+  // Floats; GPUs fuse, each pipeline in its own way.
+  EXPECT_LE(relativeRms(sum, one), 4e-6);
   const auto invocations = [&] {
     uint64_t count = 0;
     for (const WlkPassStats& pass : scene.passes()) {

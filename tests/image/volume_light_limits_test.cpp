@@ -12,12 +12,15 @@
 #include <string>
 
 #include "slicing_scene.hpp"
+#include "support/on_gpu.hpp"
 
 namespace {
 
 using namespace image_test;
+using welkin::test::FILTER_STEP;
 using welkin::test::HeadlessScene;
 using welkin::test::Image;
+using welkin::test::onGpu;
 
 constexpr double EPS_FLOAT = 0x1p-24;
 constexpr uint32_t SIZE = 24;            // pixels
@@ -240,8 +243,9 @@ TEST_F(VolumeLight, MirrorsWithItsScene) {
       std::copy_n(left.radiance.at(SIZE - 1 - x, y), 4, &mirrored.rgba[(y * SIZE + x) * 4]);
     }
   }
-  // Sums in another order; measured 5e-7.
-  EXPECT_LT(relativeRms(mirrored, right.radiance), 1e-5);
+  // Sums in another order; measured 5e-7. A GPU's filters may take another step, for one fetch in
+  // a hundred or so.
+  EXPECT_LT(relativeRms(mirrored, right.radiance), onGpu() ? FILTER_STEP / 64 : 1e-5);
 }
 
 // Isotropic scattering without absorption: what leaves in all directions is what the beam loses.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "model/model.hpp"
+#include "parity/evaluate_row.hpp"
+#include "parity/noisy_number.hpp"
 #include "parity/parity.hpp"
 
 #pragma GCC diagnostic push
@@ -39,42 +41,27 @@ namespace f32 = welkin::model::f32;
 namespace f64 = welkin::model::f64;
 namespace noisy = welkin::model::noisy;
 
-template <typename ParityRow, typename Vec4>
-ParityRow pack(const Row& row) {
-  using Scalar = typename Vec4::value_type;
-  const auto take = [&row](size_t i) {
-    return Vec4(static_cast<Scalar>(row[i]), static_cast<Scalar>(row[i + 1]),
-                static_cast<Scalar>(row[i + 2]), static_cast<Scalar>(row[i + 3]));
-  };
-  ParityRow result;
-  result.a = take(0);
-  result.b = take(4);
-  result.c = take(8);
-  result.d = take(12);
-  result.e = take(16);
-  return result;
-}
-
-template <typename ParityResult>
-Result unpack(const ParityResult& r) {
-  const auto at = [](auto x) { return static_cast<double>(x); };
-  return {at(r.first.x),  at(r.first.y),  at(r.first.z),  at(r.first.w),
-          at(r.second.x), at(r.second.y), at(r.second.z), at(r.second.w)};
-}
-
 }  // namespace
 
 Result evaluateFloat(int which, const Row& row) {
-  return unpack(f32::parityCase(which, pack<f32::ParityRow, f32::vec4>(row)));
+  return unpackResult(f32::parityCase(which, packRow<f32::ParityRow, f32::vec4>(row)));
 }
 
 Result evaluateDouble(int which, const Row& row) {
-  return unpack(f64::parityCase(which, pack<f64::ParityRow, f64::vec4>(row)));
+  return unpackResult(f64::parityCase(which, packRow<f64::ParityRow, f64::vec4>(row)));
+}
+
+bool canFuse() {
+#if defined(__x86_64__)
+  return __builtin_cpu_supports("fma") != 0;
+#else
+  return true;
+#endif
 }
 
 Result evaluateNoisy(int which, const Row& row, unsigned seed) {
-  noisy::noiseState = seed;
-  return unpack(noisy::parityCase(which, pack<noisy::ParityRow, noisy::vec4>(row)));
+  noiseState = seed;
+  return unpackResult(noisy::parityCase(which, packRow<noisy::ParityRow, noisy::vec4>(row)));
 }
 
 }  // namespace parity

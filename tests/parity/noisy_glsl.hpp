@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// src/model/glsl.hpp in double, with built-ins as wrong as Vulkan 1.3 allows them to be ("Precision
-// and Operation of SPIR-V Instructions"); ulp = 2^-23. Included inside a namespace, once.
-using real = double;
+// src/model/glsl.hpp with numbers as wrong as Vulkan 1.3 allows a device's to be: arithmetic by
+// Noisy, built-ins here. Included inside a namespace, once, after noisy_number.hpp.
+using real = parity::Noisy;
 using vec2 = glm::vec<2, real>;
 using vec3 = glm::vec<3, real>;
 using vec4 = glm::vec<4, real>;
@@ -14,42 +14,34 @@ constexpr bool AIR_ENABLED = true;
 constexpr bool FOG_ENABLED = true;
 constexpr bool ABSORBER_ENABLED = true;
 
-unsigned noiseState = 1;
-
-// +-1 ulp at random: a linear congruential generator is enough to mix signs.
-inline real ulp() {
-  noiseState = noiseState * 1664525U + 1013904223U;
-  return (noiseState & 0x80000000U) != 0 ? 0x1p-23 : -0x1p-23;
-}
-
 inline real abs(real x) {
-  return std::fabs(x);
+  return std::fabs(double(x));
 }
 inline real exp(real x) {
-  return std::exp(x) * (1 + (3 + 2 * std::fabs(x)) * ulp());
+  return real::of(std::exp(double(x)), 3 + 2 * std::fabs(double(x)));
 }
 inline real log(real x) {
-  const real exact = std::log(x);
-  return x > 0.5 && x < 2 ? exact + 4 * ulp() : exact * (1 + 3 * ulp());
+  const double exact = std::log(double(x));
+  return x > 0.5 && x < 2 ? real(exact + 4 * parity::ulp()) : real::of(exact, 3);
 }
 // 1 / inversesqrt: 2 ulp and 2.5 of the division.
 inline real sqrt(real x) {
-  return std::sqrt(x) * (1 + 4.5 * ulp());
+  return real::of(std::sqrt(double(x)), 4.5);
 }
 inline real sin(real x) {
-  return std::sin(x) + 4096 * ulp();
+  return std::sin(double(x)) + 4096 * parity::ulp();
 }
 inline real cos(real x) {
-  return std::cos(x) + 4096 * ulp();
+  return std::cos(double(x)) + 4096 * parity::ulp();
 }
 inline real atan(real y, real x) {
-  return std::atan2(y, x) * (1 + 4096 * ulp());
+  return real::of(std::atan2(double(y), double(x)), 4096);
 }
 inline real floor(real x) {
-  return std::floor(x);
+  return std::floor(double(x));
 }
 inline real ceil(real x) {
-  return std::ceil(x);
+  return std::ceil(double(x));
 }
 inline real min(real a, real b) {
   return b < a ? b : a;
@@ -68,4 +60,13 @@ inline real sign(real x) {
 }
 inline vec3 exp(vec3 v) {
   return vec3(exp(v.x), exp(v.y), exp(v.z));
+}
+inline vec3 sqrt(vec3 v) {
+  return vec3(sqrt(v.x), sqrt(v.y), sqrt(v.z));
+}
+inline vec3 normalize(vec3 v) {
+  return v / sqrt(dot(v, v));
+}
+inline real length(vec3 v) {
+  return sqrt(dot(v, v));
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Every public function of shaders/model on the device against double on the CPU, same text.
-// Tolerance per number: condition x built-in bound, plus what float rounding makes of the same text
-// on the CPU, plus a few roundings for the freedom of order that SPIR-V leaves.
+// Every public function of shaders/model on the device against double on the CPU, same text, and
+// the same in float on the CPU with products and sums fused, as compilers for devices do it.
+// Tolerance per number: condition x the bounds of operations and built-ins, plus what float
+// rounding makes of the same text on the CPU, plus a few roundings for the freedom of order that
+// SPIR-V leaves.
 #include "parity/parity.hpp"
 
 #include <gtest/gtest.h>
@@ -10,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <memory>
 
 #include "parity_spv.h"
@@ -57,13 +60,9 @@ bool undecided(int which, const Row& row) {
   return std::abs(row[1] - horizon) < 8 * EPS_FLOAT;
 }
 
-TEST_P(Parity, DeviceMatchesDouble) {
-  const int which = GetParam();
-  const std::vector<Row> rows = inputs(which, ROWS);
-  std::vector<float> flat(rows.size() * std::tuple_size_v<Row>);
-  std::memcpy(flat.data(), rows.data(), flat.size() * sizeof(float));
-  const std::vector<float> device =
-      runner_->run(parity_spv, which, flat, rows.size() * 8, ROWS / GROUP);
+// `found`: result k of row i. Returns the largest error in tolerances.
+double expectDouble(int which, const std::vector<Row>& rows, const char* where,
+                    const std::function<double(size_t i, size_t k)>& found) {
   double worst = 0;
   size_t failures = 0;
   for (size_t i = 0; i < rows.size(); ++i) {
@@ -80,22 +79,76 @@ TEST_P(Parity, DeviceMatchesDouble) {
       }
     }
     for (size_t k = 0; k < exact.size(); ++k) {
-      const double value = static_cast<double>(device[i * 8 + k]);
+      const double value = found(i, k);
       const double tolerance =
           NOISE_FACTOR * noise[k] + ROUNDING_FACTOR * std::abs(single[k] - exact[k]) +
           ROUNDINGS * EPS_FLOAT * scaleOf(which, rows[i], k, exact[k]) + ABSOLUTE;
       const double error = std::abs(value - exact[k]);
       worst = std::max(worst, error / tolerance);
       if (!(error <= tolerance) && ++failures <= 5) {
-        ADD_FAILURE() << caseName(which) << " row " << i << " output " << k << ": device " << value
-                      << ", CPU float " << single[k] << ", double " << exact[k] << ", tolerance "
-                      << tolerance << "\n  inputs " << testing::PrintToString(rows[i]);
+        ADD_FAILURE() << caseName(which) << " row " << i << " output " << k << ": " << where
+                      << value << ", CPU float " << single[k] << ", double " << exact[k]
+                      << ", tolerance " << tolerance << "\n  inputs "
+                      << testing::PrintToString(rows[i]);
       }
     }
   }
   EXPECT_EQ(failures, 0U) << "of " << rows.size();
+  return worst;
+}
+
+TEST_P(Parity, DeviceMatchesDouble) {
+  const int which = GetParam();
+  const std::vector<Row> rows = inputs(which, ROWS);
+  std::vector<float> flat(rows.size() * std::tuple_size_v<Row>);
+  std::memcpy(flat.data(), rows.data(), flat.size() * sizeof(float));
+  const std::vector<float> device =
+      runner_->run(parity_spv, which, flat, rows.size() * 8, ROWS / GROUP);
+  const double worst = expectDouble(which, rows, "device ", [&device](size_t i, size_t k) {
+    return static_cast<double>(device[i * 8 + k]);
+  });
   RecordProperty("worst_percent_of_tolerance", static_cast<int>(worst * 100));
   EXPECT_TRUE(runner_->messages().empty()) << runner_->messages().front();
+}
+
+// lavapipe fuses nothing, GPUs do.
+TEST_P(Parity, FusedMatchesDouble) {
+  if (!canFuse()) {
+    GTEST_SKIP() << "this processor does not fuse";
+  }
+  const int which = GetParam();
+  const std::vector<Row> rows = inputs(which, ROWS);
+  std::vector<Result> fused;
+  fused.reserve(rows.size());
+  for (const Row& row : rows) {
+    fused.push_back(evaluateFused(which, row));
+  }
+  const double worst =
+      expectDouble(which, rows, "fused ", [&fused](size_t i, size_t k) { return fused[i][k]; });
+  RecordProperty("worst_percent_of_tolerance", static_cast<int>(worst * 100));
+}
+
+// Passes take the floor of them to find a table's row: what a root or a logarithm of the device has
+// below 0 would be another row, or none.
+TEST(NodeCoordinates, AreNeverNegative) {
+  struct Coordinate {
+    int which;
+    size_t input;
+    std::vector<float> least;  // values with which the coordinate is 0
+    size_t output;
+  };
+  for (const Coordinate& one : {Coordinate{CASE_CANONICAL, 2, {0.0f, 0.004f, 0.01f}, 2},
+                                Coordinate{CASE_SCATTERING_TABLE, 1, {0.0f, 1e-9f}, 1},
+                                Coordinate{CASE_SOURCE, 3, {0.0f, 0.004f, -0.01f}, 3}}) {
+    Row row = inputs(one.which, 9).back();
+    for (const float value : one.least) {
+      row[one.input] = value;
+      for (unsigned seed = 1; seed <= 1000; ++seed) {
+        ASSERT_GE(evaluateNoisy(one.which, row, seed * 7919)[one.output], 0)
+            << caseName(one.which) << ' ' << value;
+      }
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Model, Parity, testing::Range(0, CASE_COUNT),

@@ -2,6 +2,7 @@
 // WlkContextInfo::deviceMemoryLimit: what would exceed it is refused before the driver is asked,
 // and nothing is lost; with the limit raised to what is used, everything fits.
 #include "stress/budget_scene.hpp"
+#include "support/on_gpu.hpp"
 #include "support/vulkan_layer.hpp"
 
 namespace welkin::test {
@@ -223,6 +224,9 @@ TEST_P(MemoryLimitOf, AFullContextRefusesWhatNeedsMore) {
   draw(scene, full);
   ASSERT_EQ(FaultLayer::memory(), full) << "there is room";
   FaultLayer::failNever();
+  if (onGpu() && needing == Needing::SURFACE) {
+    GTEST_SKIP() << "blocks of other alignments have room for a small surface";
+  }
   for (int i = 0; i < 2; ++i) {
     expectRefused(scene.add(needing), "a full context");
   }

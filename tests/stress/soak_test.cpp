@@ -12,6 +12,7 @@
 #include <string>
 
 #include "stress/abuse.hpp"
+#include "support/on_gpu.hpp"
 #include "support/surface_scene.hpp"
 
 namespace welkin::test {
@@ -188,6 +189,9 @@ class ThreadCount {
 };
 
 TEST(Determinism, PicturesDoNotDependOnTheNumberOfThreads) {
+  if (onGpu()) {
+    GTEST_SKIP() << "of lavapipe's threads";
+  }
   const ThreadCount restore;
   std::optional<Image> first;
   const size_t others = drawingThreads();  // of contexts that earlier tests keep

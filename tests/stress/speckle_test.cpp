@@ -26,7 +26,8 @@ SceneOptions square() {
 // a pixel may be anything, have neighbours that are not.
 double worstSpeckle(const Image& image, double smooth, uint32_t& counted) {
   double worst = 0;
-  const double floor = 1e-3 * image.mean();  // what is black is alike
+  // What is black is alike, also where all is: a lit cloud has 0.1.
+  const double floor = std::max(1e-3 * image.mean(), 1e-7);
   for (uint32_t y = 1; y + 1 < image.height; ++y) {
     for (uint32_t x = 1; x + 1 < image.width; ++x) {
       double low = 1e30;

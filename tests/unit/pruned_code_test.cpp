@@ -53,6 +53,8 @@ constexpr spv_target_env ENVIRONMENT = SPV_ENV_VULKAN_1_2;
 constexpr uint32_t HEADER_WORDS = 5;
 constexpr uint32_t OP_STORE = 62;
 constexpr uint32_t OP_IMAGE_WRITE = 99;
+constexpr uint32_t OP_SREM = 138;
+constexpr uint32_t OP_SMOD = 139;
 constexpr uint32_t OP_CONTROL_BARRIER = 224;
 constexpr uint32_t OP_ATOMIC_LOAD = 227;
 constexpr uint32_t OP_ATOMIC_XOR = 242;
@@ -166,6 +168,16 @@ TEST_P(PrunedCodeOf, KeepsAllThatIsNotDecided) {
   // Usual values of the module, the constants being none.
   const std::span<const uint32_t> code = GetParam().code;
   EXPECT_EQ(actsOf(prunedOf(code, {})), actsOf(frozen(code, {}, true)));
+}
+
+// Vulkan leaves them undefined where an operand is negative, and GPUs do where the divisor is no
+// power of two: numbers are made unsigned first.
+TEST_P(PrunedCodeOf, TakesNoRemainderOfSignedNumbers) {
+  const std::span<const uint32_t> code = GetParam().code;
+  for (size_t at = HEADER_WORDS; at < code.size(); at += std::max(code[at] >> 16, 1U)) {
+    const uint32_t operation = code[at] & 0xffffU;
+    ASSERT_TRUE(operation != OP_SREM && operation != OP_SMOD) << "word " << at;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -26,6 +26,9 @@ struct Stops {
   real count;
   real leftSkip;
   real rightSkip;
+  // What is left of `left` and `right`.
+  real leftEnd;
+  real rightEnd;
 };
 
 // The layer's depth falls along the ray like e^-E, E = slope d + 0.75 d^2, d = distance from the
@@ -37,6 +40,15 @@ const real STOPS_PER_SIDE = real(3.0f);
 const real MOST_STOPS = real(4.0f);
 // Depth from which a layer counts as opaque, for the stops.
 const real OPAQUE = real(2.0f);
+// Less than that share of a side has no stops of its own: they would lie closer than a float tells
+// apart, and the ray would not get on. Also where a device fuses what is subtracted here and is the
+// same.
+const real LEAST_END = real(1e-3);
+real stopsEnd(real side, real skip) {
+  real end = side - skip;
+  return end > LEAST_END * side ? end : real(0.0f);
+}
+
 Stops layerStops(Air air, AirPath path, real focus, real extinction, real base, real scaleHeight) {
   real low = altitudeAlongRay(path.altitude, path.viewMu, air.planetRadius, focus);
   real radius = air.planetRadius + low;
@@ -57,6 +69,8 @@ Stops layerStops(Air air, AirPath path, real focus, real extinction, real base, 
   real view = depth * stops.left / ((real(1.0f) + stops.left) * stops.slope);
   stops.leftSkip = min(log(max((light + view) / OPAQUE, real(1.0f))), stops.left);
   stops.rightSkip = min(log(max(light / OPAQUE, real(1.0f))), stops.right);
+  stops.leftEnd = stopsEnd(stops.left, stops.leftSkip);
+  stops.rightEnd = stopsEnd(stops.right, stops.rightSkip);
   real weightLeft = stops.left / (real(1.0f) + stops.left);
   real weightRight = stops.right / (real(1.0f) + stops.right);
   stops.share = weightLeft / (weightLeft + weightRight + DIRECTION_FLOOR);
@@ -72,7 +86,7 @@ real stopDistance(Stops stops, real u) {
   bool before = u < stops.share;
   real v = before ? real(1.0f) - u / stops.share : (u - stops.share) / (real(1.0f) - stops.share);
   real skip = before ? stops.leftSkip : stops.rightSkip;
-  real end = (before ? stops.left : stops.right) - skip;
+  real end = before ? stops.leftEnd : stops.rightEnd;
   real e = skip + v * end / (real(1.0f) + STOP_BEND * (real(1.0f) - v) * end);
   real d = real(2.0f) * e / (stops.slope + sqrt(stops.slope * stops.slope + real(3.0f) * e));
   return stops.focus + (before ? -stops.width * d : stops.width * d);
@@ -83,11 +97,11 @@ real nextStop(Stops stops, real t, real reach) {
   bool before = t < stops.focus;
   real d = abs(t - stops.focus) / stops.width;
   real skip = before ? stops.leftSkip : stops.rightSkip;
-  real end = (before ? stops.left : stops.right) - skip;
+  real end = before ? stops.leftEnd : stops.rightEnd;
   real e = max(d * (stops.slope + real(0.75f) * d) - skip, real(0.0f));
   real v = e * (real(1.0f) + STOP_BEND * end) /
            max(end * (real(1.0f) + STOP_BEND * e), DIRECTION_FLOOR);
-  v = min(v, real(1.0f));
+  v = end > real(0.0f) ? min(v, real(1.0f)) : real(0.0f);
   real u = before ? stops.share * (real(1.0f) - v)
                   : stops.share + (real(1.0f) - stops.share) * v;
   // A stop counts as reached a little early, so that rounding never asks for it twice.

@@ -26,10 +26,12 @@ real canonicalDepth(real d, real t) {
                           canonicalSpread(t);
 }
 
-// [0, 1] for |cosine| between the least and 1.
+// [0, 1] for |cosine| between the least and 1. Never below 0, of which nodes are counted, where a
+// device's root of the least is not the constant's.
 real canonicalCosine(real mu) {
   real least = sqrt(CANONICAL_COSINE);
-  return (sqrt(clamp(mu, CANONICAL_COSINE, real(1.0f))) - least) / (real(1.0f) - least);
+  real root = sqrt(clamp(mu, CANONICAL_COSINE, real(1.0f)));
+  return max(root - least, real(0.0f)) / (real(1.0f) - least);
 }
 
 // Weights of four nodes at -1, 0, 1, 2 for x in [0, 1]: the cubic through all four.

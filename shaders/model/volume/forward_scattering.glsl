@@ -28,7 +28,7 @@ real phaseCoordinate(real y) {
 // Table coordinate in [0, 1] of a scattering depth n; clamped outside [0, SCATTERING_DEPTH_NMAX].
 real depthCoordinate(real n) {
   real x = max(n, real(0.0f)) / SCATTERING_DEPTH_N0;
-  return min(log(real(1.0f) + x) * SCATTERING_DEPTH_SCALE, real(1.0f));
+  return clamp(log(real(1.0f) + x) * SCATTERING_DEPTH_SCALE, real(0.0f), real(1.0f));
 }
 
 // Rate at which light directed away from its source is lost per optical depth: dI/dtau =
