@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
-// To the nearest half float: lavapipe truncates on storing; after this the truncation is exact.
+// To the nearest half float, ties to even, of what is finite and at most 65504: devices may truncate
+// on storing, and in packHalf2x16 as well (Vulkan leaves it open; lavapipe does the former, NVIDIA's
+// drivers the latter). After this there is nothing left to round.
 vec3 roundedToHalf(vec3 v) {
-  vec2 rg = unpackHalf2x16(packHalf2x16(v.xy));
-  vec2 b = unpackHalf2x16(packHalf2x16(vec2(v.z, 0.0f)));
-  return vec3(rg, b.x);
+  uvec3 bits = floatBitsToUint(v);
+  bits += 0xfffu + (bits >> 13u & 1u);
+  vec3 normal = uintBitsToFloat(bits & 0xffffe000u);
+  vec3 small = roundEven(v * 16777216.0f) * (1.0f / 16777216.0f);  // multiples of 2^-24
+  return mix(normal, small, lessThan(abs(v), vec3(6.103515625e-5f)));
 }

@@ -13,14 +13,11 @@ layout(push_constant) uniform Push { ShadowConstants map; };
 
 const float LARGEST_HALF = 65504.0f;
 
-// lavapipe truncates on storing half floats; after this the truncation is exact.
+#include "half_float.glsl"
+
 vec3 rounded(vec3 v) {
-  if ((map.flags & SHADOW_HALF) == 0u) {
-    return v;
-  }
-  vec3 in_ = clamp(v, vec3(-LARGEST_HALF), vec3(LARGEST_HALF));
-  return vec3(unpackHalf2x16(packHalf2x16(in_.xy)),
-              unpackHalf2x16(packHalf2x16(vec2(in_.z, 0.0f))).x);
+  bool half_ = (map.flags & SHADOW_HALF) != 0u;
+  return half_ ? roundedToHalf(clamp(v, vec3(-LARGEST_HALF), vec3(LARGEST_HALF))) : v;
 }
 
 // First of a texel's sums.

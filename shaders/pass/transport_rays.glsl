@@ -14,6 +14,9 @@ ivec3 strideOf(ivec3 size) {
 // Times a coordinate has gone around, and where it is then: [-1/2, n - 1/2).
 vec2 turned(float x, int n) {
   float turns = floor((x + 0.5f) / float(n));
+  // Where a device's quotient is not the nearest, it may be that of the neighbour.
+  float at = x - turns * float(n);
+  turns += at < -0.5f ? -1.0f : (at >= float(n) - 0.5f ? 1.0f : 0.0f);
   return vec2(turns, x - turns * float(n));
 }
 

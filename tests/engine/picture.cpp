@@ -28,11 +28,10 @@ Tolerance operator+(const Tolerance& a, const Tolerance& b) {
 
 Tolerance roundingOf(VkFormat format) {
   switch (format) {
-    // A step, since devices may round towards zero.
     case VK_FORMAT_R16G16B16A16_SFLOAT:  // 10 stored bits, least exponent -14
-      return {{0x1p-10, 0x1p-10, 0x1p-10}, 0x1p-24};
+      return {{0x1p-11, 0x1p-11, 0x1p-11}, 0x1p-25};
     case VK_FORMAT_B10G11R11_UFLOAT_PACK32:  // 6, 6 and 5 stored bits
-      return {{0x1p-6, 0x1p-6, 0x1p-5}, 0x1p-19};
+      return {{0x1p-7, 0x1p-7, 0x1p-6}, 0x1p-20};
     default:
       return {{0, 0, 0}, 0};
   }

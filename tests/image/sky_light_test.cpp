@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "support/headless_scene.hpp"
+#include "support/on_gpu.hpp"
 
 namespace welkin::test {
 namespace {
@@ -298,8 +299,8 @@ TEST_F(SkyLightTurned, LightsAddUp) {
   std::fill_n(lights[1].irradiance, 3, 0.25f);
   check(wlkSetLights(scene.context, 2, sizeof *lights, lights));
   const Image sum = scene.render();
-  // Floats; GPUs fuse, each pipeline in its own way.
-  EXPECT_LE(relativeRms(sum, one), 4e-6);
+  // Floats; GPUs fuse, each pipeline in its own way, measured 2.2e-6.
+  EXPECT_LE(relativeRms(sum, one), onGpu() ? 4e-6 : 1e-6);
   const auto invocations = [&] {
     uint64_t count = 0;
     for (const WlkPassStats& pass : scene.passes()) {

@@ -31,6 +31,10 @@ constexpr double ROUNDING_FACTOR = 4;  // CPU and device round in a different or
 constexpr double ROUNDINGS = 24;       // where the CPU happens to round to the right number
 constexpr double ABSOLUTE = 1e-18;     // tails under e^-46 are cut, at slightly different arguments
 
+// Noise may cut a ray through air into other segments: a tolerance that allows more says little.
+constexpr double VAGUE = 1e-3;
+constexpr double VAGUE_LEAST = 1e-9;  // of radiances of about 1
+
 class Parity : public testing::TestWithParam<int> {
  protected:
   static void SetUpTestSuite() { runner_ = std::make_unique<support::ComputeRunner>(); }
@@ -65,6 +69,7 @@ double expectDouble(int which, const std::vector<Row>& rows, const char* where,
                     const std::function<double(size_t i, size_t k)>& found) {
   double worst = 0;
   size_t failures = 0;
+  size_t vague = 0;
   for (size_t i = 0; i < rows.size(); ++i) {
     if (undecided(which, rows[i])) {
       continue;
@@ -85,6 +90,7 @@ double expectDouble(int which, const std::vector<Row>& rows, const char* where,
           ROUNDINGS * EPS_FLOAT * scaleOf(which, rows[i], k, exact[k]) + ABSOLUTE;
       const double error = std::abs(value - exact[k]);
       worst = std::max(worst, error / tolerance);
+      vague += tolerance > VAGUE * scaleOf(which, rows[i], k, exact[k]) + VAGUE_LEAST ? 1U : 0U;
       if (!(error <= tolerance) && ++failures <= 5) {
         ADD_FAILURE() << caseName(which) << " row " << i << " output " << k << ": " << where
                       << value << ", CPU float " << single[k] << ", double " << exact[k]
@@ -94,6 +100,9 @@ double expectDouble(int which, const std::vector<Row>& rows, const char* where,
     }
   }
   EXPECT_EQ(failures, 0U) << "of " << rows.size();
+  if (which == CASE_AIR) {
+    EXPECT_LE(vague, rows.size() / 10) << "noise hides what is tested";
+  }
   return worst;
 }
 
@@ -122,6 +131,13 @@ TEST_P(Parity, FusedMatchesDouble) {
   fused.reserve(rows.size());
   for (const Row& row : rows) {
     fused.push_back(evaluateFused(which, row));
+  }
+  if (which == CASE_AIR) {
+    size_t others = 0;
+    for (size_t i = 0; i < rows.size(); ++i) {
+      others += fused[i] != evaluateFloat(which, rows[i]) ? 1U : 0U;
+    }
+    EXPECT_GT(others, rows.size() / 2) << "nothing is fused";
   }
   const double worst =
       expectDouble(which, rows, "fused ", [&fused](size_t i, size_t k) { return fused[i][k]; });

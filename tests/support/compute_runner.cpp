@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/compute_runner.hpp"
 
+#include <cstdlib>
 #include <cstring>
 
 namespace support {
@@ -9,7 +10,7 @@ namespace {
 DeviceOptions options() {
   DeviceOptions result;
   result.validation = validationInstalled();
-  result.preferSoftware = true;
+  result.preferSoftware = std::getenv("WELKIN_ANY_DEVICE") == nullptr;
   return result;
 }
 

@@ -14,8 +14,8 @@ namespace support {
 // Throws std::runtime_error where a Vulkan call fails or there is no device.
 class ComputeRunner {
  public:
-  // Takes the first llvmpipe device, else the first device; with the Khronos validation layer,
-  // synchronisation validation included, where it is installed.
+  // Takes the first llvmpipe device, else (or by WELKIN_ANY_DEVICE) the first; with the Khronos
+  // validation layer, synchronisation validation included, where it is installed.
   ComputeRunner();
 
   // Dispatches `groups` workgroups of a shader with entry point "main", storage buffers at

@@ -24,7 +24,7 @@ double radians(double degrees) {
 void chooseDriver() {
 #ifdef WELKIN_TEST_DRIVER
   constexpr int KEEP = 0;
-  if (std::getenv("VK_ICD_FILENAMES") == nullptr) {
+  if (std::getenv("VK_ICD_FILENAMES") == nullptr && std::getenv("WELKIN_ANY_DEVICE") == nullptr) {
     setenv("VK_DRIVER_FILES", WELKIN_TEST_DRIVER, KEEP);
   }
 #endif

@@ -14,7 +14,8 @@
 
 namespace welkin::test {
 
-// Points the Vulkan loader at lavapipe unless the environment chose a driver already.
+// Points the Vulkan loader at lavapipe unless the environment chose a driver already or, by
+// WELKIN_ANY_DEVICE, the machine's own.
 void chooseDriver();
 
 // RGBA floats, top row first.

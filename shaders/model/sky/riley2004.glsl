@@ -101,7 +101,7 @@ real nextStop(Stops stops, real t, real reach) {
   real e = max(d * (stops.slope + real(0.75f) * d) - skip, real(0.0f));
   real v = e * (real(1.0f) + STOP_BEND * end) /
            max(end * (real(1.0f) + STOP_BEND * e), DIRECTION_FLOOR);
-  v = end > real(0.0f) ? min(v, real(1.0f)) : real(0.0f);
+  v = end > real(0.0f) ? min(v, real(1.0f)) : (before ? real(0.0f) : real(1.0f));
   real u = before ? stops.share * (real(1.0f) - v)
                   : stops.share + (real(1.0f) - stops.share) * v;
   // A stop counts as reached a little early, so that rounding never asks for it twice.
@@ -319,7 +319,8 @@ AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, vec3 fo
   for (int segment = 0; segment < MAX_SEGMENTS; ++segment) {
     real airStop = AIR_ENABLED ? nextStop(airStops, here.distance, path.reach) : path.reach;
     real fogStop = fogMatters ? nextStop(fogStops, here.distance, path.reach) : path.reach;
-    real t = clamp(min(airStop, fogStop), here.distance, path.reach);
+    real t = nearerStop(airStop, here.distance, path.reach);
+    t = nearerStop(fogStop, here.distance, t);
     t = nearerStop(penumbra.x, here.distance, nearerStop(penumbra.y, here.distance, t));
     bool isBehind = radius * path.sunMu + here.distance * path.viewSun < real(0.0f);
     bool dark = isBehind && shadow.x <= here.distance && here.distance < shadow.y;
