@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// To the nearest half float, ties to even, of what is finite and at most 65504: devices may truncate
-// on storing, and in packHalf2x16 as well (Vulkan leaves it open; lavapipe does the former, NVIDIA's
-// drivers the latter). After this there is nothing left to round.
+// To the nearest half float, ties to even, of what is finite and at most 65504. Devices may
+// truncate on storing, and in packHalf2x16 too (lavapipe does the former, NVIDIA's drivers the
+// latter); after this there is nothing left to round.
 vec3 roundedToHalf(vec3 v) {
   uvec3 bits = floatBitsToUint(v);
   bits += 0xfffu + (bits >> 13u & 1u);
