@@ -151,6 +151,8 @@ TEST(ModelSweep, StopsLieAheadOnTheRay) {
   SWEEP(15, "grazingStop", (Claim{0.0, 1.0, 0.0, 0.0, SLOW}), ANY_POINT,
         m::grazingStop(AIR, PATH, POINT, x[2], STOPS.width, PATH.reach) /
             std::fmax(PATH.reach, real(1e-30)));
+  // Of a side of 1: up to all of it.
+  SWEEP(1, "stopsEnd", (Claim{0.0, 1.0}), ({a.uniform(0.0f, 1.0f)}), m::stopsEnd(real(1), x[0]));
   SWEEP(3, "nearerStop", (Claim{0.0, 1.0}),
         ({a.uniform(-1.0f, 2.0f), a.uniform(0.0f, 1.0f), a.uniform(0.0f, 1.0f)}),
         m::nearerStop(x[0], x[1], x[2]));
