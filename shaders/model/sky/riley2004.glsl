@@ -41,8 +41,8 @@ const real MOST_STOPS = real(4.0f);
 // Depth from which a layer counts as opaque, for the stops.
 const real OPAQUE = real(2.0f);
 // Less than that share of a side has no stops of its own: they would lie closer than a float tells
-// apart, and the ray would not get on. Also where a device fuses what is subtracted here and is the
-// same.
+// apart, and the ray would not get on. Where skip is all of a side, a device that fuses the side's
+// product into this difference finds such a rest, too.
 const real LEAST_END = real(1e-3);
 real stopsEnd(real side, real skip) {
   real end = side - skip;
