@@ -13,36 +13,52 @@ constexpr uint32_t MAX_CALLS = 24;
 constexpr uint32_t WIDTH = 8;
 constexpr uint32_t HEIGHT = 6;
 constexpr uint64_t MEMORY_LIMIT = uint64_t{512} << 20;
+constexpr uint32_t INPUTS_PER_CONTEXT = 256;
 
-// One device for all inputs: its pipelines take longer than a picture.
-struct Host {
+// One device for many inputs: its pipelines take longer than a picture.
+class Host {
+ public:
+  // Never destroyed, as the driver has statics of its own.
+  static Host& get() {
+    static Host* const host = new Host;
+    return *host;
+  }
+  // For every input. Scenes have ever other pipelines, 2.5 MB of lavapipe's each, which a context
+  // keeps: that of another input is a new one now and then.
+  static Host& next() {
+    Host& host = get();
+    if (++host.inputs_ % INPUTS_PER_CONTEXT == 0) {
+      wlkDestroyContext(host.context);
+      host.create();
+    }
+    return host;
+  }
+
   WlkContext context = nullptr;
   WlkMedium medium{};
-};
 
-const Host& host() {
-  static const Host made = [] {
-    Host host;
+ private:
+  Host() { create(); }
+  void create() {
     auto headless = welkin::make<WlkHeadlessInfo>();
     auto info = welkin::make<WlkContextInfo>();
     info.next = &headless;
     info.deviceMemoryLimit = MEMORY_LIMIT;
-    require(checkResult(wlkCreateContext(WLK_API_VERSION, &info, &host.context)),
+    require(checkResult(wlkCreateContext(WLK_API_VERSION, &info, &context)),
             "there is a device to draw with");
-    const auto medium = welkin::make<WlkMediumInfo>();
-    require(checkResult(wlkCreateMedium(host.context, &medium, &host.medium)), "there is a medium");
-    return host;
-  }();
-  return made;
-}
+    const auto made = welkin::make<WlkMediumInfo>();
+    require(checkResult(wlkCreateMedium(context, &made, &medium)), "there is a medium");
+  }
+  uint32_t inputs_ = 0;
+};
 
 class Run {
  public:
   explicit Run(Input& input)
       : input_(input),
-        context_(host().context),
+        context_(Host::next().context),
         view_(makeView()),
-        scene_(input, context_, host().medium, view_) {}
+        scene_(input, context_, Host::get().medium, view_) {}
   ~Run() { (void)wlkDestroyView(context_, view_); }
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
@@ -100,7 +116,7 @@ class Run {
     info.width = WIDTH;
     info.height = HEIGHT;
     WlkView view{};
-    require(checkResult(wlkCreateView(host().context, &info, &view)), "there is a view");
+    require(checkResult(wlkCreateView(Host::get().context, &info, &view)), "there is a view");
     return view;
   }
 

@@ -19,6 +19,7 @@ constexpr uint32_t MAX_RECORDED = 6;  // calls in a frame
 constexpr uint32_t OWN = 7;           // calls that are no frame
 constexpr uint32_t FRAMES = 12;       // as likely as so many of them
 constexpr uint64_t MEMORY_LIMIT = uint64_t{512} << 20;
+constexpr uint32_t INPUTS_PER_CONTEXT = 64;
 
 // What a frame leaves when a call in it runs out of something: commands that may not be submitted.
 struct ThrownAway {};
@@ -32,7 +33,22 @@ class Host {
     return *host;
   }
 
-  // A context whose last frame was thrown away has lost count of its images.
+  // A context whose last frame was thrown away has lost count of its images, and one of many inputs
+  // has many pipelines, 2.5 MB of lavapipe's each and as much again of sanitizers and layer.
+  void renewAfter(bool thrownAway) {
+    if (thrownAway || ++inputs_ % INPUTS_PER_CONTEXT == 0) {
+      renew();
+    }
+  }
+
+  SpyDevice spy{true};
+  Images images{spy};
+  WlkContext context = nullptr;
+  WlkMedium medium{};
+  uint64_t frame = 0;
+
+ private:
+  Host() { renew(); }
   void renew() {
     wlkDestroyContext(context);
     context = nullptr;
@@ -46,15 +62,7 @@ class Host {
     require(checkResult(wlkCreateMedium(context, &made, &medium)), "there is a medium");
     frame = 0;
   }
-
-  SpyDevice spy{true};
-  Images images{spy};
-  WlkContext context = nullptr;
-  WlkMedium medium{};
-  uint64_t frame = 0;
-
- private:
-  Host() { renew(); }
+  uint32_t inputs_ = 0;
 };
 
 class Run {
@@ -74,9 +82,7 @@ class Run {
     (void)wlkDestroyCloudShadow(host_.context, map_);
     (void)wlkDestroyVolume(host_.context, volume_);
     (void)wlkVulkanForgetImage(host_.context, images_.voxels.handle);
-    if (thrownAway_) {
-      host_.renew();
-    }
+    host_.renewAfter(thrownAway_);
     for (const std::string& message : host_.spy.messages()) {
       std::fprintf(stderr, "%s\n", message.c_str());
     }

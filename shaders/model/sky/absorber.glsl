@@ -4,7 +4,7 @@
 // 0: a tent, whose column along a ray is closed: with s the distance from the ray's point nearest
 // the planet's centre and a the radius of a knot of the tent, r - a = (s^2 - q) / (r + a), where
 // q = a^2 minus that point's radius squared is constant along the ray. r + a is taken as constant
-// too: within 2e-4 of the column, or of the vertical one if that is more, for the Earth's ozone
+// too: within 1e-5 of the column, or of the vertical one if that is more, for the Earth's ozone
 // (tests/unit/absorber_test.cpp).
 
 // Where a ray meets the layer: values of s, 0 where the whole ray lies above that knot.
@@ -36,8 +36,7 @@ AbsorberRay absorberRay(real altitude, real along, real radius, real peak, real 
 }
 
 // Integral of r - a along the ray from the knot of radius a to s, three times; nothing below it.
-// r + a = 2 a + (r^2 - a^2) / (2 a) at the mean of r^2 - a^2, weighted with itself; either the knot
-// or `over` is 0.
+// r + a is taken at the mean of r^2 - a^2, weighted with itself; either the knot or `over` is 0.
 real absorberRamp(real s, real knot, real over, real a) {
   real beyond = max(s - knot, real(0.0f));
   real square = s * s;
@@ -48,7 +47,7 @@ real absorberRamp(real s, real knot, real over, real a) {
                (beyond * (real(0.6) * beyond + real(3.0f) * knot) + real(4.0f) * knot * knot) /
                max(beyond + real(3.0f) * knot, real(1e-30));
   real mean = knot > real(0.0f) ? steep : level;
-  return whole / (real(2.0f) * a + mean / (real(2.0f) * a));
+  return whole / (a + sqrt(a * a + mean));
 }
 
 // Column between the ray's lowest point and its point at s, signed like s.

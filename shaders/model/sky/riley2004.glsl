@@ -269,6 +269,17 @@ vec3 lightBeyond(Air air, AirPath path, AirPoint here, real edge, real airPhase,
   return source * safeExp3(-depthOfColumns(air, columns + columnsOf(span))) * way;
 }
 
+// A ray of that optical depth scatters no more than this once: its opacity times the largest phase
+// function. The sum may be more where layers are opaque that no segment follows.
+vec3 mostLight(Air air, vec3 opticalDepth, real airPhase, vec3 fogPhase) {
+  vec3 phase = vec3(AIR_ENABLED ? airPhase : real(0.0f));
+  if (FOG_ENABLED) {
+    phase = max(phase, air.fogAlbedo * fogPhase);
+  }
+  return phase * vec3(oneMinusExp(opticalDepth.x), oneMinusExp(opticalDepth.y),
+                      oneMinusExp(opticalDepth.z));
+}
+
 // Light scattered once towards the ray's origin, and the ray's optical depth. `distance` may be
 // infinite; the caller ends it at the scene or at groundDistance. The light fades with
 // lightVisibility. airPhase and fogPhase (RGB) are the phase functions' values (1/sr) at the angle
@@ -455,6 +466,7 @@ AirResult airAlongRay(Air air, AirRay ray, real distance, real airPhase, vec3 fo
     }
   }
   result.opticalDepth = depthOfColumns(air, viewColumns);
+  result.radiance = min(result.radiance, mostLight(air, result.opticalDepth, airPhase, fogPhase));
   result.columns = viewColumns;
   return result;
 }

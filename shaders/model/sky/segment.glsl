@@ -176,14 +176,17 @@ struct SegmentEnd {
 
 // Mean transmittance for one layer when the other adds `other` to the depth over the segment: of
 // that |share| is passed before (share > 0) or after (share < 0) all of the layer, the rest evenly
-// along it.
+// along it. What is moved may be all but a rounding of the depth: that rounding stays, or light
+// might come of it; and the mean is that of the depths as they are then, or it might be negative.
+const real DEPTH_ROUNDED = real(1.0000002384185791);  // 1 + 2^-22
 vec3 displacedMean(SegmentEnd a, SegmentEnd b, vec3 other, real wanted) {
   real share = clamp(wanted, real(-1.0f), real(1.0f));
-  vec3 moved = (share > real(0.0f) ? a.depth : b.depth) + other * share;
+  vec3 moved = (share > real(0.0f) ? a.depth : b.depth) * DEPTH_ROUNDED + other * share;
   vec3 e = safeExp3(-moved);
   vec3 e0 = share > real(0.0f) ? e : a.transmittance;
   vec3 e1 = share > real(0.0f) ? b.transmittance : e;
-  return meanTransmittance3(e0, e1, b.depth - a.depth - other * abs(share));
+  vec3 rise = share > real(0.0f) ? b.depth - moved : moved - a.depth;
+  return meanTransmittance3(e0, e1, rise);
 }
 
 // Share for displacedMean of a layer whose own depth changes by `own` over the segment, when the
