@@ -76,26 +76,77 @@ vec4 middleOf(vec4 a, vec4 b, vec4 c, vec4 d) {
   return (9.0f * (b + c) - (a + d)) * 0.0625f;
 }
 
-// Position per m along a pixel's ray, in voxels.
-vec3 voxelsAlong(vec2 pixel) {
-  return (volume.boxFromEye * vec4(pixelDirection(frame, pixel), 0.0f)).xyz * volume.voxels.xyz;
+// A ray before it is normalised: then it is linear in the pixel's place.
+struct Beam {
+  vec4 homogeneous;  // of pixelDirection
+  vec4 along;        // its box coordinates, and its part along the local up
+};
+
+Beam beamOf(vec4 homogeneous) {
+  Beam beam;
+  beam.homogeneous = homogeneous;
+  vec4 direction = vec4(homogeneous.xyz, 0.0f);
+  beam.along = vec4((volume.boxFromEye * direction).xyz, dot(homogeneous.xyz, frame.eye.xyz));
+  return beam;
 }
 
-// Whether one of the rays of fourth pixels around goes through whatever voxel this ray meets, t m
-// away: a voxel's density reaches `reach` voxels to both sides.
-bool meetsVoxels(vec2 pixel, vec3 along, float t, vec3 reach) {
-  vec3 right = t * (voxelsAlong(pixel + vec2(2.0f, 0.0f)) - along);
-  vec3 up = t * (voxelsAlong(pixel + vec2(0.0f, 2.0f)) - along);
-  Span sum = rayBox(right + up, along, -reach, reach);
-  Span difference = rayBox(right - up, along, -reach, reach);
-  return sum.end > sum.begin && difference.end > difference.begin;
+// The rays of an invocation's pixels: that of the first one, and what one to the right and one
+// downwards add. Read and multiplied once for all of them: the driver's loads of what is uniform
+// cost more than the arithmetic.
+struct Fan {
+  Beam first;
+  Beam right;
+  Beam down;
+  vec4 depth;  // what a depth value of 1 adds to the homogeneous position
+};
+
+// From a pixel on, in steps of so many.
+Fan fanOf(vec2 pixel, float steps) {
+  vec2 ndc = (pixel + 0.5f) * frame.viewport.zw * 2.0f - 1.0f;
+  vec4 first = frame.eyeFromNdc * vec4(ndc, 0.5f, 1.0f);
+  float size = 1.0f / length(first.xyz);
+  vec2 next = size * steps * 2.0f * frame.viewport.zw;
+  Fan fan;
+  fan.first = beamOf(size * first);
+  fan.right = beamOf(next.x * frame.eyeFromNdc[0]);
+  fan.down = beamOf(next.y * frame.eyeFromNdc[1]);
+  fan.depth = size * frame.eyeFromNdc[2];
+  return fan;
+}
+
+Beam beamAt(Fan fan, vec2 ahead) {
+  Beam beam;
+  beam.homogeneous = fan.first.homogeneous + ahead.x * fan.right.homogeneous +
+                     ahead.y * fan.down.homogeneous;
+  beam.along = fan.first.along + ahead.x * fan.right.along + ahead.y * fan.down.along;
+  // Which way it goes.
+  beam.along = beam.homogeneous.w < 0.0f ? -beam.along : beam.along;
+  return beam;
+}
+
+// Whether lines through `place` meet a box around 0 with these half edges: 1 over their direction.
+bool lineMeets(vec3 place, vec3 inverse, vec3 edges) {
+  vec3 middle = place * inverse;
+  vec3 halves = edges * abs(inverse);
+  vec3 begin = middle - halves;
+  vec3 end = middle + halves;
+  return max(max(begin.x, begin.y), begin.z) < min(min(end.x, end.y), end.z);
+}
+
+// Whether one of the rays of fourth pixels around goes through whatever voxel this ray meets, t
+// lengths away: a voxel's density reaches `reach` voxels to both sides.
+bool meetsVoxels(Fan fan, vec3 along, float t, vec3 reach) {
+  vec3 right = t * fan.right.along.xyz * volume.voxels.xyz;
+  vec3 down = t * fan.down.along.xyz * volume.voxels.xyz;
+  bvec3 flat_ = lessThan(abs(along), vec3(DIRECTION_FLOOR));
+  vec3 inverse = 1.0f / mix(along, vec3(DIRECTION_FLOOR), flat_);
+  return lineMeets(right + down, inverse, reach) && lineMeets(right - down, inverse, reach);
 }
 
 // Whether a second pixel's ray may meet something where those around have seen nothing at all: they
 // promise nothing for what is narrower than they are apart.
-bool blind(uvec2 second, Ray between, Ray error) {
-  vec2 pixel = vec2(second * 2u);
-  vec3 along = voxelsAlong(pixel);
+bool blind(Fan fan, Beam beam, Ray between, Ray error) {
+  vec3 along = beam.along.xyz * volume.voxels.xyz;
   vec3 origin = volume.boxFromEye[3].xyz * volume.voxels.xyz;
   Span span = rayBox(origin, along, vec3(0.0f), volume.voxels.xyz);
   // Voxels at the box's faces reach half a voxel to one side, those between two of them to both.
@@ -105,17 +156,18 @@ bool blind(uvec2 second, Ray between, Ray error) {
   vec3 reach = mix(vec3(0.75f), vec3(1.0f), greaterThan(nearest, vec3(1.5f)));
   reach = mix(reach, vec3(0.5f), lessThan(volume.voxels.xyz, vec3(1.5f)));
   return between.state.w == 1.0f && error.state.w == 0.0f && span.end > span.begin &&
-         !meetsVoxels(pixel, along, span.end, reach);
+         !meetsVoxels(fan, along, span.end, reach);
 }
 
-// Where the ray ends inside the box and where it enters it, m; 0 if it misses.
-vec2 endOf(uvec2 pixel) {
-  vec3 direction = pixelDirection(frame, vec2(pixel));
+// Where the ray of a pixel ends inside the box and where it enters it, m; 0 if it misses.
+vec2 endOf(Fan fan, Beam beam, uvec2 pixel) {
+  float size = length(beam.homogeneous.xyz);
+  Span span = rayBox(volume.boxFromEye[3].xyz, beam.along.xyz, vec3(0.0f), vec3(1.0f));
   float d = texelFetch(depthImage, insideView(pixel), 0).x;
-  vec3 along = (volume.boxFromEye * vec4(direction, 0.0f)).xyz;
-  Span span = rayBox(volume.boxFromEye[3].xyz, along, vec3(0.0f), vec3(1.0f));
-  span.end = min(span.end, endOfRay(frame, direction, surfaceDistance(frame, vec2(pixel), d)));
-  return span.end > span.begin ? vec2(span.end, span.begin) : vec2(0.0f);
+  float surface = homogeneousDistance(frame, beam.homogeneous + (d - 0.5f) * fan.depth, d);
+  vec2 end = size * vec2(span.end, span.begin);
+  end.x = min(end.x, endOfRay(frame, beam.along.w / size, surface));
+  return end.x > end.y ? end : vec2(0.0f);
 }
 
 // Behind what the volumes in front have left.
@@ -189,12 +241,16 @@ Ray larger(Ray a, Ray b) {
 }
 
 // Takes on what lies between the neighbours, or asks for a ray: by a bit.
-void settle(uvec2 at, Ray between, Ray error, Ray most, uint bit, inout uint asked) {
+// `first`: the fan's; `ahead`: from there on.
+void settle(Fan fan, uvec2 first, uvec2 ahead, Ray between, Ray error, Ray most, uint bit,
+            inout uint asked) {
+  uvec2 at = first + ahead;
   if (!inside(at)) {
     return;
   }
-  vec2 own = DEPTH_ENABLED ? endOf(at * (TO_SECONDS ? 2u : 1u)) : vec2(0.0f);
-  bool unseen = TO_SECONDS && blind(at, between, error);
+  Beam beam = beamAt(fan, vec2(ahead));
+  vec2 own = DEPTH_ENABLED ? endOf(fan, beam, at * (TO_SECONDS ? 2u : 1u)) : vec2(0.0f);
+  bool unseen = TO_SECONDS && blind(fan, beam, between, error);
   if (!unseen && serves(own, between, error, most)) {
     if (TO_SECONDS) {
       storeSecond(at, between.state, own.x, between.sums.yz);
@@ -265,9 +321,11 @@ Rows rowsAt(ivec2 at) {
   return rows;
 }
 
-// 2 x 2 of them, the first of which has a ray of its own, from the four rows around.
-void settleCell(uvec2 corner, Row above, Row here, Row next, Row last, uint cell,
+// 2 x 2 of them, the first of which has a ray of its own, from the four rows around. `first`: the
+// invocation's.
+void settleCell(Fan fan, uvec2 first, Row above, Row here, Row next, Row last, uint cell,
                 inout uint asked) {
+  uvec2 corner = 2u * uvec2(cell % SPREAD_COLUMNS, cell / SPREAD_COLUMNS);
   Ray most = larger(here.most, next.most);
   most.state = vec4(vec3(max(max(most.state.x, most.state.y), most.state.z)), 1.0f);
   Ray below = cubic(above.second, here.second, next.second, last.second);
@@ -275,13 +333,13 @@ void settleCell(uvec2 corner, Row above, Row here, Row next, Row last, uint cell
   Ray across = cubic(above.between, here.between, next.between, last.between);
   Ray acrossError = larger(cubicError(above.between, here.between, next.between, last.between),
                            larger(here.error, next.error));
-  if (!TO_SECONDS && inside(corner)) {
-    take(corner, here.second);
+  if (!TO_SECONDS && inside(first + corner)) {
+    take(first + corner, here.second);
   }
   uint bit = ASKED_PER_CELL * cell;
-  settle(corner + uvec2(1u, 0u), here.between, here.error, most, bit, asked);
-  settle(corner + uvec2(0u, 1u), below, belowError, most, bit + 1u, asked);
-  settle(corner + uvec2(1u, 1u), across, acrossError, most, bit + 2u, asked);
+  settle(fan, first, corner + uvec2(1u, 0u), here.between, here.error, most, bit, asked);
+  settle(fan, first, corner + uvec2(0u, 1u), below, belowError, most, bit + 1u, asked);
+  settle(fan, first, corner + uvec2(1u, 1u), across, acrossError, most, bit + 2u, asked);
 }
 
 void main() {
@@ -292,17 +350,17 @@ void main() {
   Rows above = rowsAt(at - ivec2(0, 1));
   Rows here = rowsAt(at);
   Rows next = rowsAt(at + ivec2(0, 1));
+  uvec2 first = uvec2(at) * 2u;
+  Fan fan = TO_SECONDS ? fanOf(vec2(first * 2u), 2.0f) : fanOf(vec2(first), 1.0f);
   uint asked = 0u;
   for (int i = 0; i < int(SPREAD_CELLS); ++i) {
     Rows last = rowsAt(at + ivec2(0, i + 2));
-    uvec2 corner = uvec2(at) * 2u + uvec2(0u, 2u * uint(i));
     uint cell = SPREAD_COLUMNS * uint(i);
-    settleCell(corner, above.left, here.left, next.left, last.left, cell, asked);
-    settleCell(corner + uvec2(2u, 0u), above.right, here.right, next.right, last.right, cell + 1u,
-               asked);
+    settleCell(fan, first, above.left, here.left, next.left, last.left, cell, asked);
+    settleCell(fan, first, above.right, here.right, next.right, last.right, cell + 1u, asked);
     above = here;
     here = next;
     next = last;
   }
-  ask(uvec2(at) * 2u, asked);
+  ask(first, asked);
 }

@@ -8,16 +8,20 @@ vec3 pixelDirection(FrameUniforms frame, vec2 pixel) {
   return normalize(p.w < 0.0f ? -p.xyz : p.xyz);
 }
 
-// Distance behind depth value d: |p| / w, infinite for the sky's value and for w -> 0.
-float surfaceDistance(FrameUniforms frame, vec2 pixel, float d) {
-  vec2 ndc = (pixel + 0.5f) * frame.viewport.zw * 2.0f - 1.0f;
-  vec4 p = frame.eyeFromNdc * vec4(ndc, d, 1.0f);
+// Distance of the homogeneous position that depth value d gives: |p| / w, infinite for the sky's
+// value and for w -> 0.
+float homogeneousDistance(FrameUniforms frame, vec4 p, float d) {
   float reach = length(p.xyz);
   float w = abs(p.w);
   if (d == frame.output_.x || !(w * INFINITE_DISTANCE > reach)) {
     return INFINITE_DISTANCE;
   }
   return reach / w;
+}
+
+float surfaceDistance(FrameUniforms frame, vec2 pixel, float d) {
+  vec2 ndc = (pixel + 0.5f) * frame.viewport.zw * 2.0f - 1.0f;
+  return homogeneousDistance(frame, frame.eyeFromNdc * vec4(ndc, d, 1.0f), d);
 }
 
 // Distance of a slice of froxels. m.
