@@ -13,11 +13,13 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include "stress/counting_allocator.hpp"
 #include "support/engine_scene.hpp"
 #include "support/library_allocations.hpp"
+#include "support/light_shadow.hpp"
 #include "support/on_gpu.hpp"
 #include "support/surface_scene.hpp"
 
@@ -110,10 +112,62 @@ struct GoldenScene {
   bool fog;
   bool surface;
   int lights;
+  bool outputs = false;
 };
 void PrintTo(const GoldenScene& scene, std::ostream* out) {
   *out << scene.name;
 }
+
+// All that a view may write beside its picture, and the engine's shadow map.
+class Outputs {
+ public:
+  explicit Outputs(EngineScene& scene)
+      : scene_(scene),
+        radiance_(scene.device(), VK_FORMAT_R16G16B16A16_SFLOAT, FROXELS, STORED),
+        transmittance_(scene.device(), VK_FORMAT_R16G16B16A16_SFLOAT, FROXELS, STORED),
+        distance_(scene.device(), VK_FORMAT_R32G32_SFLOAT,
+                  {scene.options().width, scene.options().height, 1}, STORED),
+        shadow_(scene.device(), VK_FORMAT_R32_SFLOAT, {16, 16, 1}, VK_IMAGE_USAGE_SAMPLED_BIT) {
+    auto aerial = make<WlkAerialPerspective>();
+    aerial.width = FROXELS.width;
+    aerial.height = FROXELS.height;
+    aerial.depth = FROXELS.depth;
+    check(wlkSetAerialPerspective(scene.context, scene.view, &aerial));
+    check(wlkSetVolumeDistance(scene.context, scene.view, 1));
+    LightFrame({0, 0, 0}, 5000, directionTo(30, 20))
+        .write({0, 0, 0}, false, place_.clipFromWorld[0]);
+    scene.lightShadow = &place_;
+    scene.shadowMap = &images_[3];
+    scene.addTargets = [this](WlkVulkanViewTargets& targets) {
+      targets.aerialRadiance = images_.data();
+      targets.aerialTransmittance = &images_[1];
+      targets.volumeDistance = &images_[2];
+    };
+  }
+  ~Outputs() {
+    for (const SpyImage* image : {&radiance_, &transmittance_, &distance_, &shadow_}) {
+      check(wlkVulkanForgetImage(scene_.context, image->handle));
+    }
+  }
+  Outputs(const Outputs&) = delete;
+  Outputs& operator=(const Outputs&) = delete;
+
+ private:
+  static constexpr VkExtent3D FROXELS{8, 6, 10};
+  static constexpr VkImageUsageFlags STORED =
+      VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+  static WlkVulkanImage described(const SpyImage& image) {
+    return EngineScene::describe(image, VK_IMAGE_LAYOUT_GENERAL);
+  }
+  EngineScene& scene_;
+  SpyImage radiance_;
+  SpyImage transmittance_;
+  SpyImage distance_;
+  SpyImage shadow_;
+  std::array<WlkVulkanImage, 4> images_{described(radiance_), described(transmittance_),
+                                        described(distance_), described(shadow_)};
+  WlkLightShadow place_ = make<WlkLightShadow>();
+};
 
 class GoldenBudget : public ::testing::TestWithParam<GoldenScene> {
  protected:
@@ -168,8 +222,15 @@ TEST_P(GoldenBudget, IsExactAtEveryLevel) {
     options.ambient = true;
     options.validation = false;  // frames of other tests have it
     options.allocator = memory.callbacks();
+    if (GetParam().outputs) {
+      options.qualityFlags = WLK_QUALITY_FLAG_VOLUME_SHADOWS | WLK_QUALITY_FLAG_LIGHT_SHADOWS;
+    }
     EngineScene scene(options);
     scene.submit = false;
+    std::optional<Outputs> outputs;
+    if (GetParam().outputs) {
+      outputs.emplace(scene);
+    }
     const std::string key = std::string(GetParam().name) + "," + LEVELS[level] + ",";
     const auto volumes = build(scene);
     check(wlkPrepare(scene.context));
@@ -208,7 +269,8 @@ INSTANTIATE_TEST_SUITE_P(Of, GoldenBudget,
                                            GoldenScene{"volume", 1, false, false, 1},
                                            GoldenScene{"volumes", 2, false, false, 1},
                                            GoldenScene{"surface", 0, false, true, 1},
-                                           GoldenScene{"lights", 1, true, false, 2}),
+                                           GoldenScene{"lights", 1, true, false, 2},
+                                           GoldenScene{"outputs", 1, true, false, 1, true}),
                          nameOf);
 
 }  // namespace
