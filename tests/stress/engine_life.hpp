@@ -47,7 +47,7 @@ struct Kind {
   bool light;
   uint32_t scattering;
   bool targets = false;    // froxels, distance, a shadow map
-  bool diameters = false;  // of droplets, whose tables take longest
+  bool diameters = false;  // of droplets, whose tables take longest: 0.1 s
   bool surface = false;    // a cloud of a mesh, moved between frames
   bool setters = false;    // all that changes or asks something, and an engine's own volume image
   // Of so many calls of Vulkan one fails, where not all do. No multiple of 3: codes take turns.
@@ -63,19 +63,12 @@ constexpr Kind CLOUD{"cloud", false, true, WLK_SCATTERING_FORWARD, false, false,
 constexpr Kind AIR{"air", true, false, WLK_SCATTERING_FORWARD, false, false, false, false, 4, 31};
 constexpr Kind TARGETS{"targets", false, true, WLK_SCATTERING_FORWARD, true, false, false,
                        false,     2,     13};
-// Droplets have no more than the first faults of a function.
 constexpr Kind DROPLETS{"droplets", false, true, WLK_SCATTERING_FORWARD, true, true, false, false,
-                        10007,      10007, 10007};
+                        61,         307,   61};
 constexpr Kind SURFACE{"surface", false, true, WLK_SCATTERING_FORWARD, false, false, true, false,
                        7,         61,    7};
 constexpr Kind SETTERS{"setters", false, true, WLK_SCATTERING_FORWARD, true, false, true, true,
                        31,        101,   7};
-
-// Functions whose faults a life in which not all fail leaves to the other lives: droplets take 4 s
-// in each of theirs.
-inline bool leftToOthers(const Kind& kind, const std::string& entry) {
-  return kind.diameters && entry != "wlkPrepare" && entry != "wlkUploadVolumeDiameters";
-}
 
 class Life {
  public:

@@ -118,7 +118,7 @@ TEST_P(Faults, EveryCallOfVulkanMayFailOnce) {
     // The first of each function fails in any case.
     const std::string entry = k < functions.size() ? functions[k] : "";
     const bool first = tried.insert(entry).second;
-    if ((!first && k % stride != 0) || (all == 0 && leftToOthers(kind, entry))) {
+    if (!first && k % stride != 0) {
       continue;
     }
     for (uint64_t i = 0; i < (all > 0 ? CODES.size() : 1); ++i) {
@@ -128,7 +128,7 @@ TEST_P(Faults, EveryCallOfVulkanMayFailOnce) {
     }
   }
   counts.report("vulkan", kind.name);
-  EXPECT_TRUE(kind.diameters || counts.of("wlkCreateContext") > 0);
+  EXPECT_GT(counts.of("wlkCreateContext"), 0u);
   EXPECT_GT(counts.of("wlkPrepare"), 0u);
   EXPECT_TRUE(!kind.setters || counts.of("wlkVulkanSetVolumeImage") > 0);
   EXPECT_TRUE(!kind.surface || counts.of("wlkCreateSurface") > 0);
