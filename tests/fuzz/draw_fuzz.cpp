@@ -13,7 +13,7 @@ constexpr uint32_t MAX_CALLS = 24;
 constexpr uint32_t WIDTH = 8;
 constexpr uint32_t HEIGHT = 6;
 constexpr uint64_t MEMORY_LIMIT = uint64_t{512} << 20;
-constexpr uint32_t INPUTS_PER_CONTEXT = 256;
+constexpr uint32_t INPUTS_PER_CONTEXT = 128;
 
 // One device for many inputs: its pipelines take longer than a picture.
 class Host {

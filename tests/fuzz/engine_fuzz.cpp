@@ -19,7 +19,7 @@ constexpr uint32_t MAX_RECORDED = 6;  // calls in a frame
 constexpr uint32_t OWN = 7;           // calls that are no frame
 constexpr uint32_t FRAMES = 12;       // as likely as so many of them
 constexpr uint64_t MEMORY_LIMIT = uint64_t{512} << 20;
-constexpr uint32_t INPUTS_PER_CONTEXT = 64;
+constexpr uint32_t INPUTS_PER_CONTEXT = 32;
 
 // What a frame leaves when a call in it runs out of something: commands that may not be submitted.
 struct ThrownAway {};
