@@ -102,8 +102,7 @@ struct Fan {
 
 // From a pixel on, in steps of so many.
 Fan fanOf(vec2 pixel, float steps) {
-  vec2 ndc = (pixel + 0.5f) * frame.viewport.zw * 2.0f - 1.0f;
-  vec4 first = frame.eyeFromNdc * vec4(ndc, 0.5f, 1.0f);
+  vec4 first = homogeneousAt(frame, pixel, 0.5f);
   float size = 1.0f / length(first.xyz);
   vec2 next = size * steps * 2.0f * frame.viewport.zw;
   Fan fan;

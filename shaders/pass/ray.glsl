@@ -2,9 +2,14 @@
 // The ray of a pixel and the distance of the engine's surface on it.
 const float INFINITE_DISTANCE = 1.0e30f;
 
-vec3 pixelDirection(FrameUniforms frame, vec2 pixel) {
+// Behind a pixel's middle, of depth value d: homogeneous, from the eye.
+vec4 homogeneousAt(FrameUniforms frame, vec2 pixel, float d) {
   vec2 ndc = (pixel + 0.5f) * frame.viewport.zw * 2.0f - 1.0f;
-  vec4 p = frame.eyeFromNdc * vec4(ndc, 0.5f, 1.0f);
+  return frame.eyeFromNdc * vec4(ndc, d, 1.0f);
+}
+
+vec3 pixelDirection(FrameUniforms frame, vec2 pixel) {
+  vec4 p = homogeneousAt(frame, pixel, 0.5f);
   return normalize(p.w < 0.0f ? -p.xyz : p.xyz);
 }
 
@@ -20,8 +25,7 @@ float homogeneousDistance(FrameUniforms frame, vec4 p, float d) {
 }
 
 float surfaceDistance(FrameUniforms frame, vec2 pixel, float d) {
-  vec2 ndc = (pixel + 0.5f) * frame.viewport.zw * 2.0f - 1.0f;
-  return homogeneousDistance(frame, frame.eyeFromNdc * vec4(ndc, d, 1.0f), d);
+  return homogeneousDistance(frame, homogeneousAt(frame, pixel, d), d);
 }
 
 // Distance of a slice of froxels. m.

@@ -34,7 +34,7 @@ class Host {
   }
 
   // A context whose last frame was thrown away has lost count of its images, and one of many inputs
-  // has many pipelines, 2.5 MB of lavapipe's each and as much again of sanitizers and layer.
+  // has many pipelines, 2.5 MB of lavapipe's each.
   void renewAfter(bool thrownAway) {
     if (thrownAway || ++inputs_ % INPUTS_PER_CONTEXT == 0) {
       renew();

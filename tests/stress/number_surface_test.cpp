@@ -6,7 +6,7 @@
 namespace welkin::test {
 namespace {
 
-constexpr float EXTINCTION = 0.01f;  // 1/m, inside the box of 2 m around the mesh's origin
+constexpr float EXTINCTION = 0.01f;  // 1/m
 
 // A box of 200 m in sight of the victim's eye.
 WlkSurfaceInfo surfaceInSight(const SurfaceArrays& arrays) {
@@ -64,17 +64,6 @@ TEST(NumberFields, OfDetailAreRefusedOrHarmless) {
         ASSERT_EQ(wlkDestroySurface(c, surface), WLK_SUCCESS);
         ASSERT_EQ(wlkPrepare(c), WLK_SUCCESS);
       });
-}
-
-// As the victim's view was made.
-WlkQuality qualityOf(const SceneOptions& options) {
-  auto quality = make<WlkQuality>();
-  quality.level = options.level;
-  quality.scattering = options.scattering;
-  quality.volumeResolution = options.volumeResolution;
-  quality.volumeCells = options.volumeCells;
-  quality.flags = options.qualityFlags;
-  return quality;
 }
 
 TEST(NumberFields, OfControlledQualityAreRefusedOrHarmless) {

@@ -186,6 +186,16 @@ WlkVolume SceneBuilder::addBall(float extinction) const {
   return volume;
 }
 
+WlkQuality qualityOf(const SceneOptions& options) {
+  auto quality = make<WlkQuality>();
+  quality.level = options.level;
+  quality.scattering = options.scattering;
+  quality.volumeResolution = options.volumeResolution;
+  quality.volumeCells = options.volumeCells;
+  quality.flags = options.qualityFlags;
+  return quality;
+}
+
 WlkView SceneBuilder::addView(const SceneOptions& options) const {
   auto info = make<WlkViewInfo>();
   info.width = options.width;
@@ -195,12 +205,7 @@ WlkView SceneBuilder::addView(const SceneOptions& options) const {
   info.targetFormat = options.targetFormat;
   WlkView made{};
   check(wlkCreateView(context, &info, &made));
-  auto quality = make<WlkQuality>();
-  quality.level = options.level;
-  quality.scattering = options.scattering;
-  quality.volumeResolution = options.volumeResolution;
-  quality.volumeCells = options.volumeCells;
-  quality.flags = options.qualityFlags;
+  const WlkQuality quality = qualityOf(options);
   check(wlkSetQuality(context, made, &quality));
   return made;
 }
@@ -226,11 +231,8 @@ void SceneBuilder::setCamera(const std::array<double, 3>& position, double yaw_d
 }
 
 void SceneBuilder::setQuality(uint32_t level, uint64_t flags) const {
-  auto quality = make<WlkQuality>();
+  WlkQuality quality = qualityOf(options_);
   quality.level = level;
-  quality.scattering = options_.scattering;
-  quality.volumeResolution = options_.volumeResolution;
-  quality.volumeCells = options_.volumeCells;
   quality.flags = flags;
   check(wlkSetQuality(context, view, &quality));
 }

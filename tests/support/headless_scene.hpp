@@ -56,6 +56,9 @@ struct SceneOptions {
   WlkAllocator allocator{};
 };
 
+// What the options ask of a view.
+WlkQuality qualityOf(const SceneOptions& options);
+
 // Row-major 3x4 of an axis-aligned box.
 std::array<double, 12> boxTransform(const std::array<double, 3>& lo,
                                     const std::array<double, 3>& edges);

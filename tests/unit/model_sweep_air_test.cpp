@@ -238,8 +238,8 @@ TEST(ModelSweep, RaysThatWereWrongKeepEnergy) {
        {17652.8066f, 2.52173759e-05f, 65116.8828f, 2.14058655e-05f, -10000.0f, 1.32660222f,
         0.0153377401f, 46802.7344f, 7426.14258f, -1515.16394f, 0.999999285f, -0.999884188f,
         -0.999895394f, 58773768.0f}}};
-  // All of them are dark: next to no light reaches what scatters it.
-  constexpr double DARK = 0.1;
+  // All of them are dark: next to no light reaches what scatters it, a thousandth of the peak, 100.
+  constexpr double DARK = 1e-3 * 100.0;
   size_t next = 0;
   const auto sweepOf = [&](auto real, auto airAlong) {
     for (const std::array<float, 14>& found : FOUND) {
