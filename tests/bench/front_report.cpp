@@ -70,7 +70,7 @@ void save(const std::string& file, const std::string& text) {
 
 Ordered reportHead(const std::string& commit, size_t rounds, bool quick) {
   return {
-      {"schema", 1},
+      {"schema", 2},
       {"machine", machine()},
       {"device", Ordered::object()},
       {"build",
@@ -107,10 +107,14 @@ Ordered reportRow(const Case& one, const Row& row) {
           {"timeMad_ms", timing.wallDeviation},
           {"cpu_ms", timing.cpu},
           {"gpu_ms", timing.gpu},
+          {"fast_ms", timing.fast},
+          {"fastCpu_ms", timing.fastCpu},
           {"ratio", timing.ratio},
-          {"ratioLow", timing.ratioLow},
-          {"ratioHigh", timing.ratioHigh},
           {"cpuRatio", timing.cpuRatio},
+          {"medianRatio", timing.medianRatio},
+          {"medianRatioLow", timing.medianRatioLow},
+          {"medianRatioHigh", timing.medianRatioHigh},
+          {"handover_ns", timing.handover_ns},
           {"dispatches", counts.dispatches},
           {"draws", counts.draws},
           {"barriers", counts.barriers},

@@ -7,6 +7,8 @@
 #include <ctime>
 #include <limits>
 
+#include "bench/driver_threads.hpp"
+
 namespace bench {
 namespace {
 
@@ -14,8 +16,7 @@ namespace {
 // some per cent. Many short rounds follow a machine whose speed drifts better than few long ones.
 constexpr double MIN_ROUND_ms = 10.0;
 constexpr size_t MAX_REPEATS = 64;
-// Cheap scenes get more rounds, up to MORE_ROUNDS times as many. Ratios of two runs still differ,
-// see docs/accuracy-and-performance.md.
+// Cheap scenes get more rounds, up to MORE_ROUNDS times as many.
 constexpr double MIN_STUDY_ms = 3000.0;
 constexpr size_t MORE_ROUNDS = 7;
 // Warm-ups of a copy end when they took this long, the first frame of all, which compiles, left
@@ -27,9 +28,13 @@ constexpr double LONG_FIRST_ms = 1000.0;
 // round.
 constexpr double LONG_ROUND = 6.0;
 constexpr size_t MAX_STRIDE = 2;
-// A method whose ratio is known no better than this (high / low) is timed in more rounds, up to as
-// many as were asked for.
-constexpr double UNSURE = 1.06;
+// What other work adds to a time has no limit, what a lucky moment takes from it has: a fifth was
+// seen. Times are compared by the third fastest round.
+constexpr size_t COMPARED = 2;
+// A method whose rounds before and after that differ by more than this is timed in more rounds, up
+// to UNSURE_ROUNDS times as many as were asked for, long ones up to as many.
+constexpr double UNSURE = 1.02;
+constexpr size_t UNSURE_ROUNDS = 2;
 
 struct Sample {
   double wall = 0.0;
@@ -62,11 +67,10 @@ Sample timeFrames(const RenderFrame& frame, size_t repeats) {
   return {sample.wall / count, sample.cpu / count, sample.gpu / count};
 }
 
-std::vector<double> ratios(const std::vector<Sample>& samples, const std::vector<Sample>& anchor,
-                           double Sample::*time) {
+std::vector<double> ratios(const std::vector<Sample>& samples, const std::vector<Sample>& anchor) {
   std::vector<double> result;
   for (size_t i = 0; i < samples.size(); ++i) {
-    result.push_back(samples[i].*time / (anchor[i].*time));
+    result.push_back(samples[i].wall / anchor[i].wall);
   }
   std::sort(result.begin(), result.end());
   return result;
@@ -80,7 +84,25 @@ std::vector<double> column(const std::vector<Sample>& samples, double Sample::*t
   return result;
 }
 
-Timing summarise(const std::vector<Sample>& samples, const std::vector<Sample>& anchor) {
+std::vector<double> sorted(const std::vector<Sample>& samples, double Sample::*time) {
+  std::vector<double> times = column(samples, time);
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
+double compared(const std::vector<Sample>& samples, double Sample::*time) {
+  const std::vector<double> times = sorted(samples, time);
+  return times[std::min(COMPARED, times.size() / 2)];
+}
+
+bool isUnsure(const std::vector<Sample>& samples) {
+  const std::vector<double> times = sorted(samples, &Sample::wall);
+  return times.size() < COMPARED + 2 || times[COMPARED + 1] > UNSURE * times[COMPARED - 1];
+}
+
+// `anchor`: in the same rounds; `anchorEver`: in all.
+Timing summarise(const std::vector<Sample>& samples, const std::vector<Sample>& anchor,
+                 const std::vector<Sample>& anchorEver) {
   Timing timing;
   timing.wall = medianOf(column(samples, &Sample::wall));
   std::vector<double> distance;
@@ -90,15 +112,18 @@ Timing summarise(const std::vector<Sample>& samples, const std::vector<Sample>& 
   timing.wallDeviation = medianOf(distance);
   timing.cpu = medianOf(column(samples, &Sample::cpu));
   timing.gpu = medianOf(column(samples, &Sample::gpu));
-  const std::vector<double> sorted = ratios(samples, anchor, &Sample::wall);
-  timing.ratio = medianOf(sorted);
+  timing.fast = compared(samples, &Sample::wall);
+  timing.fastCpu = compared(samples, &Sample::cpu);
+  timing.ratio = timing.fast / compared(anchorEver, &Sample::wall);
+  timing.cpuRatio = timing.fastCpu / compared(anchorEver, &Sample::cpu);
+  const std::vector<double> byRound = ratios(samples, anchor);
+  timing.medianRatio = medianOf(byRound);
   // The count of samples below the median is binomial: n/2 +- 1.96 sqrt(n)/2.
-  const auto n = static_cast<double>(sorted.size());
+  const auto n = static_cast<double>(byRound.size());
   const double rank = std::floor(0.5 * n - 0.98 * std::sqrt(n));
   const size_t skip = rank > 0.0 ? static_cast<size_t>(rank) : 0;
-  timing.ratioLow = sorted[skip];
-  timing.ratioHigh = sorted[sorted.size() - 1 - skip];
-  timing.cpuRatio = medianOf(ratios(samples, anchor, &Sample::cpu));
+  timing.medianRatioLow = byRound[skip];
+  timing.medianRatioHigh = byRound[byRound.size() - 1 - skip];
   return timing;
 }
 
@@ -142,6 +167,7 @@ double medianOf(std::vector<double> values) {
 
 std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor, size_t warmUps,
                                size_t rounds) {
+  const bool onCores = pinDriverThreads() > 1;
   std::vector<Turn> turns;
   double round_ms = 0;
   for (size_t i = 0; i < methods.size(); ++i) {
@@ -157,8 +183,10 @@ std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor
   rounds = std::max(std::clamp(fill, rounds, MORE_ROUNDS * rounds), MAX_STRIDE);
   std::vector<std::vector<Sample>> samples(methods.size());
   std::vector<std::vector<Sample>> anchors(methods.size());  // of the same rounds
+  std::vector<double> handovers;
   const auto time = [&](const std::vector<size_t>& due) {
     for (const size_t i : due) {
+      handovers.push_back(onCores ? awaitNearCores() : 0.0);
       const RenderFrame& frame = methods[i][samples[i].size() % turns[i].copies];
       samples[i].push_back(timeFrames(frame, turns[i].repeats));
     }
@@ -176,15 +204,15 @@ std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor
     }
     time(due);
   }
-  for (size_t more = 0; more < asked; ++more) {
+  for (size_t more = 0; more < UNSURE_ROUNDS * asked; ++more) {
     std::vector<size_t> due = {anchor};
     for (size_t i = 0; i < methods.size(); ++i) {
-      const Timing timing = summarise(samples[i], anchors[i]);
-      if (i != anchor && timing.ratioHigh > UNSURE * timing.ratioLow) {
+      const bool timely = more < asked || turns[i].frame_ms < LONG_ROUND * MIN_ROUND_ms;
+      if (i != anchor && timely && isUnsure(samples[i])) {
         due.push_back(i);
       }
     }
-    if (due.size() == 1) {
+    if (due.size() == 1 && !isUnsure(samples[anchor])) {
       break;
     }
     std::rotate(due.begin(), due.begin() + static_cast<ptrdiff_t>(more % due.size()), due.end());
@@ -192,7 +220,8 @@ std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor
   }
   std::vector<Timing> timings;
   for (size_t i = 0; i < methods.size(); ++i) {
-    timings.push_back(summarise(samples[i], anchors[i]));
+    timings.push_back(summarise(samples[i], anchors[i], samples[anchor]));
+    timings.back().handover_ns = medianOf(handovers);
   }
   return timings;
 }

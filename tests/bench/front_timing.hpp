@@ -15,13 +15,20 @@ struct Timing {
   double wallDeviation = 0.0;
   double cpu = 0.0;
   double gpu = 0.0;
+  /// Of the third fastest round (the median one of fewer than five), by time and by CPU time. ms.
+  double fast = 0.0;
+  double fastCpu = 0.0;
+  /// That over the anchor's. What else a machine does adds to times, and adds to short and long
+  /// frames alike, so that medians of ratios differ between runs.
+  double ratio = 1.0;
+  double cpuRatio = 1.0;
   /// Median over the rounds of time / anchor's time in that round; low and high: order statistics
   /// that hold the median with 95 % confidence (all rounds if there are fewer than six).
-  double ratio = 1.0;
-  double ratioLow = 1.0;
-  double ratioHigh = 1.0;
-  /// The same of process CPU times, which the machine's other work disturbs less.
-  double cpuRatio = 1.0;
+  double medianRatio = 1.0;
+  double medianRatioLow = 1.0;
+  double medianRatioHigh = 1.0;
+  /// Of the driver's cores, see awaitNearCores: median over the rounds; 0: not known.
+  double handover_ns = 0.0;
 };
 
 /// Renders one frame and returns its GPU time in ms.
@@ -31,9 +38,10 @@ using RenderFrame = std::function<double()>;
 /// tenth. Rounds take them in turn.
 using Copies = std::vector<RenderFrame>;
 
-/// Calls every copy `warmUps` times, then every method once per round, in an order that turns by
-/// one place each round; a frame too short to time alone is repeated and its mean taken, cheap sets
-/// of methods get more rounds, long frames miss some, and ratios that are known badly get more.
+/// Gives the driver's threads a core each, waits for cores that share a cache, calls every copy
+/// `warmUps` times, then every method once per round, in an order that turns by one place each
+/// round; a frame too short to time alone is repeated and its mean taken, cheap sets of methods get
+/// more rounds, long frames miss some, and methods whose fast rounds differ get more.
 std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor, size_t warmUps,
                                size_t rounds);
 

@@ -279,9 +279,10 @@ class Study {
             {"nsPerPixel", 1e6 * timing.wall / pixelCount()},
             {"cpuNsPerPixel", 1e6 * timing.cpu / pixelCount()},
             {"ratio", timing.ratio},
-            {"ratioLow", timing.ratioLow},
-            {"ratioHigh", timing.ratioHigh},
             {"cpuRatio", timing.cpuRatio},
+            {"medianRatio", timing.medianRatio},
+            {"medianRatioLow", timing.medianRatioLow},
+            {"medianRatioHigh", timing.medianRatioHigh},
             {"dispatches", counts.dispatches},
             {"invocations", counts.invocations},
             {"bytes", counts.bytes},
@@ -292,8 +293,8 @@ class Study {
 
   void printRow(const std::string& name, const Timing& timing, const Errors& errors) const {
     std::printf("| %s | %s | %.1f | %.1f | %.2f (%.2f..%.2f) | %.2f |", one_.name.c_str(),
-                name.c_str(), timing.wall, timing.cpu, timing.ratio, timing.ratioLow,
-                timing.ratioHigh, timing.cpuRatio);
+                name.c_str(), timing.wall, timing.cpu, timing.ratio, timing.medianRatioLow,
+                timing.medianRatioHigh, timing.cpuRatio);
     for (const std::vector<double>* part :
          {&errors.all.sky, &errors.all.aerial, &errors.all.aerialFar, &errors.all.transmittance,
           &errors.single.sky, &errors.single.aerial, &errors.single.aerialFar}) {

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// Precision of where threads run: whether those that look like the driver's get a core each.
+#include "bench/driver_threads.hpp"
+
+#include <gtest/gtest.h>
+#include <pthread.h>
+#include <sched.h>
+
+#include <atomic>
+#include <memory>
+#include <thread>
+#include <vector>
+
+namespace bench {
+namespace {
+
+// Threads that wait, with names as lavapipe gives them.
+class Pool {
+ public:
+  explicit Pool(std::vector<std::string> names) {
+    for (const std::string& name : names) {
+      threads_.emplace_back([this] {
+        while (!over_) {
+          std::this_thread::yield();
+        }
+      });
+      pthread_setname_np(threads_.back().native_handle(), name.c_str());
+    }
+  }
+  Pool(const Pool&) = delete;
+  Pool& operator=(const Pool&) = delete;
+  ~Pool() {
+    over_ = true;
+    for (std::thread& thread : threads_) {
+      thread.join();
+    }
+  }
+
+  // Cores on which it may run.
+  int cores(size_t index) {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    pthread_getaffinity_np(threads_[index].native_handle(), sizeof set, &set);
+    return CPU_COUNT(&set);
+  }
+
+  bool runsOn(size_t index, size_t core) {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    pthread_getaffinity_np(threads_[index].native_handle(), sizeof set, &set);
+    return CPU_ISSET(core, &set) != 0;
+  }
+
+ private:
+  std::atomic<bool> over_ = false;
+  std::vector<std::thread> threads_;
+};
+
+std::vector<size_t> coresOfThisThread() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  sched_getaffinity(0, sizeof set, &set);
+  std::vector<size_t> cores;
+  for (size_t core = 0; core < CPU_SETSIZE; ++core) {
+    if (CPU_ISSET(core, &set)) {
+      cores.push_back(core);
+    }
+  }
+  return cores;
+}
+
+TEST(DriverThreads, WorkersGetACoreEach) {
+  const std::vector<size_t> cores = coresOfThisThread();
+  // A queue's thread, two workers for triangles, two for dispatches, and one of something else.
+  Pool pool({"welkin", "llvmpipe-0", "llvmpipe-1", "welkin", "welkin", "welkin"});
+  EXPECT_EQ(pinDriverThreads(), std::min<size_t>(2, cores.size()));
+  EXPECT_EQ(pool.cores(0), static_cast<int>(cores.size()));
+  for (size_t worker = 0; worker < 4; ++worker) {
+    EXPECT_EQ(pool.cores(1 + worker), 1) << worker;
+    EXPECT_TRUE(pool.runsOn(1 + worker, cores[worker % 2 % cores.size()])) << worker;
+  }
+  EXPECT_EQ(pool.cores(5), static_cast<int>(cores.size()));
+}
+
+TEST(DriverThreads, OtherDriversAreLeftAlone) {
+  Pool pool({"worker-0", "worker-1"});
+  EXPECT_EQ(pinDriverThreads(), 0u);
+  EXPECT_EQ(pool.cores(0), static_cast<int>(coresOfThisThread().size()));
+}
+
+TEST(DriverThreads, HandoverIsThatOfTwoCores) {
+  // A line moves between two cores in no less than a few ns; 100 us are a scheduler's, not a
+  // cache's.
+  const double handover = coreHandover_ns();
+  if (coresOfThisThread().size() < 2) {
+    EXPECT_EQ(handover, 0.0);
+    return;
+  }
+  EXPECT_GT(handover, 2.0);
+  EXPECT_LT(handover, 1e5);
+}
+
+}  // namespace
+}  // namespace bench
