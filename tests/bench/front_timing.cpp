@@ -28,11 +28,10 @@ constexpr double LONG_FIRST_ms = 1000.0;
 // round.
 constexpr double LONG_ROUND = 6.0;
 constexpr size_t MAX_STRIDE = 2;
-// What other work adds to a time has no limit, what a lucky moment takes from it has: a fifth was
-// seen. Times are compared by the third fastest round.
-constexpr size_t COMPARED = 2;
-// A method whose rounds before and after that differ by more than this is timed in more rounds, up
-// to UNSURE_ROUNDS times as many as were asked for, long ones up to as many.
+// A method whose fastest rounds, CONFIRMED of them, differ by more than this (last / first) is
+// timed in more rounds, up to UNSURE_ROUNDS times as many as were asked for, long ones up to as
+// many.
+constexpr size_t CONFIRMED = 3;
 constexpr double UNSURE = 1.02;
 constexpr size_t UNSURE_ROUNDS = 2;
 
@@ -84,20 +83,18 @@ std::vector<double> column(const std::vector<Sample>& samples, double Sample::*t
   return result;
 }
 
-std::vector<double> sorted(const std::vector<Sample>& samples, double Sample::*time) {
-  std::vector<double> times = column(samples, time);
-  std::sort(times.begin(), times.end());
-  return times;
-}
-
-double compared(const std::vector<Sample>& samples, double Sample::*time) {
-  const std::vector<double> times = sorted(samples, time);
-  return times[std::min(COMPARED, times.size() / 2)];
+double least(const std::vector<Sample>& samples, double Sample::*time) {
+  double result = std::numeric_limits<double>::infinity();
+  for (const Sample& sample : samples) {
+    result = std::min(result, sample.*time);
+  }
+  return result;
 }
 
 bool isUnsure(const std::vector<Sample>& samples) {
-  const std::vector<double> times = sorted(samples, &Sample::wall);
-  return times.size() < COMPARED + 2 || times[COMPARED + 1] > UNSURE * times[COMPARED - 1];
+  std::vector<double> walls = column(samples, &Sample::wall);
+  std::sort(walls.begin(), walls.end());
+  return walls.size() < CONFIRMED || walls[CONFIRMED - 1] > UNSURE * walls.front();
 }
 
 // `anchor`: in the same rounds; `anchorEver`: in all.
@@ -112,10 +109,10 @@ Timing summarise(const std::vector<Sample>& samples, const std::vector<Sample>& 
   timing.wallDeviation = medianOf(distance);
   timing.cpu = medianOf(column(samples, &Sample::cpu));
   timing.gpu = medianOf(column(samples, &Sample::gpu));
-  timing.fast = compared(samples, &Sample::wall);
-  timing.fastCpu = compared(samples, &Sample::cpu);
-  timing.ratio = timing.fast / compared(anchorEver, &Sample::wall);
-  timing.cpuRatio = timing.fastCpu / compared(anchorEver, &Sample::cpu);
+  timing.fastest = least(samples, &Sample::wall);
+  timing.leastCpu = least(samples, &Sample::cpu);
+  timing.ratio = timing.fastest / least(anchorEver, &Sample::wall);
+  timing.cpuRatio = timing.leastCpu / least(anchorEver, &Sample::cpu);
   const std::vector<double> byRound = ratios(samples, anchor);
   timing.medianRatio = medianOf(byRound);
   // The count of samples below the median is binomial: n/2 +- 1.96 sqrt(n)/2.

@@ -15,10 +15,10 @@ struct Timing {
   double wallDeviation = 0.0;
   double cpu = 0.0;
   double gpu = 0.0;
-  /// Of the third fastest round (the median one of fewer than five), by time and by CPU time. ms.
-  double fast = 0.0;
-  double fastCpu = 0.0;
-  /// That over the anchor's. What else a machine does adds to times, and adds to short and long
+  /// The fastest round's, and the least CPU time of a round. ms.
+  double fastest = 0.0;
+  double leastCpu = 0.0;
+  /// Those over the anchor's. What else a machine does adds to times, and adds to short and long
   /// frames alike, so that medians of ratios differ between runs.
   double ratio = 1.0;
   double cpuRatio = 1.0;
@@ -41,7 +41,7 @@ using Copies = std::vector<RenderFrame>;
 /// Gives the driver's threads a core each, waits for cores that share a cache, calls every copy
 /// `warmUps` times, then every method once per round, in an order that turns by one place each
 /// round; a frame too short to time alone is repeated and its mean taken, cheap sets of methods get
-/// more rounds, long frames miss some, and methods whose fast rounds differ get more.
+/// more rounds, long frames miss some, and methods whose fastest rounds differ get more.
 std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor, size_t warmUps,
                                size_t rounds);
 
