@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Precision of where threads run: whether those that look like the driver's get a core each.
+// Whether threads that look like the driver's get a core each, and others none.
 #include "bench/driver_threads.hpp"
 
 #include <gtest/gtest.h>
 #include <pthread.h>
 #include <sched.h>
 
+#include <algorithm>
 #include <atomic>
-#include <memory>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -17,7 +18,7 @@ namespace {
 // Threads that wait, with names as lavapipe gives them.
 class Pool {
  public:
-  explicit Pool(std::vector<std::string> names) {
+  explicit Pool(const std::vector<std::string>& names) {
     for (const std::string& name : names) {
       threads_.emplace_back([this] {
         while (!over_) {

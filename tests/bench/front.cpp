@@ -131,7 +131,8 @@ void measure(const Options& options) {
     });
     report["device"] = result.device;
     std::printf("%-16s %-18s %9s %8s %8s %8s %12s %10s %10s %10s\n", one.name.c_str(), "method",
-                "ms", "ratio", "low", "high", "invocations", "truth", "single", "converged");
+                "ms", "ratio", "med low", "med high", "invocations", "truth", "single",
+                "converged");
     for (const Row& row : result.rows) {
       const auto figure = [](const Ordered& errors) {
         return errors.is_null() ? NAN : errors.at("rmseOverMean").get<double>();

@@ -38,10 +38,10 @@ using RenderFrame = std::function<double()>;
 /// tenth. Rounds take them in turn.
 using Copies = std::vector<RenderFrame>;
 
-/// Gives the driver's threads a core each, waits for cores that share a cache, calls every copy
-/// `warmUps` times, then every method once per round, in an order that turns by one place each
-/// round; a frame too short to time alone is repeated and its mean taken, cheap sets of methods get
-/// more rounds, long frames miss some, and methods whose fastest rounds differ get more.
+/// Gives the driver's threads a core each, calls every copy `warmUps` times, then every method once
+/// per round, in an order that turns by one place each round and each after awaitNearCores; a frame
+/// too short to time alone is repeated and its mean taken, cheap sets of methods get more rounds,
+/// long frames miss some, and methods whose fastest rounds differ get more.
 std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor, size_t warmUps,
                                size_t rounds);
 

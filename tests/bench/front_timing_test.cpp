@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Precision of interleaved times: frames whose times are known.
+// Interleaved times of frames that take what they are told to.
 #include "bench/front_timing.hpp"
 
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@ double spin(double time_ms) {
   return time_ms;
 }
 
-// Of a timer's own cost, some 50 ns, and of frames that all rounds found interrupted.
-constexpr double FOUND = 0.05;
+// A scheduler's tick that all rounds met, 1 ms of 10. Slow rounds are 125 % longer.
+constexpr double FOUND = 0.1;
 
 TEST(FrontTiming, RatioIsThatOfTheFastestRounds) {
   // The second one is held up in all but every third round of 10 ms, as by other work.
@@ -29,7 +29,7 @@ TEST(FrontTiming, RatioIsThatOfTheFastestRounds) {
   EXPECT_NEAR(timings[0].ratio, 1.0, 1e-9);
   EXPECT_NEAR(timings[1].ratio, 2.0, 2.0 * FOUND);
   EXPECT_NEAR(timings[1].fastest, 20.0, 20.0 * FOUND);
-  EXPECT_GT(timings[1].medianRatio, 3.0);
+  EXPECT_GT(timings[1].medianRatio, 2.0 * (1.0 + 2.0 * FOUND));
   EXPECT_LE(timings[1].medianRatioLow, timings[1].medianRatio);
   EXPECT_GE(timings[1].medianRatioHigh, timings[1].medianRatio);
 }

@@ -293,7 +293,7 @@ class Study {
 
   void printRow(const std::string& name, const Timing& timing, const Errors& errors) const {
     std::printf("| %s | %s | %.1f | %.1f | %.2f (%.2f..%.2f) | %.2f |", one_.name.c_str(),
-                name.c_str(), timing.wall, timing.cpu, timing.ratio, timing.medianRatioLow,
+                name.c_str(), timing.wall, timing.cpu, timing.medianRatio, timing.medianRatioLow,
                 timing.medianRatioHigh, timing.cpuRatio);
     for (const std::vector<double>* part :
          {&errors.all.sky, &errors.all.aerial, &errors.all.aerialFar, &errors.all.transmittance,
