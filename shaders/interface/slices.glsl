@@ -20,6 +20,7 @@ struct VolumeUniforms {
   vec4 gridOffset;
   vec4 gridEnd;          // last cell's middle; 1 / edge of its image
   vec4 gridNormal;       // of a layer's plane
+  vec4 flatStretches;    // of a ray in a flat volume, from face to face along each axis
   vec4 voxels;           // along the axes
   vec4 atlas[4];         // per field: 1 / texels of the atlas of its bricks
   vec4 ambientScale;     // the same of the grid for the light of sky and ground

@@ -208,7 +208,7 @@ void main() {
     float keep = notPeak;
     float s = span.begin - nearest;
     float last = span.end - nearest;
-    float longest = TRANSPORT ? min(volume.middle.w, gridStep(m.boxStep)) : volume.middle.w;
+    float longest = min(volume.middle.w, flatStep(m.boxStep));
     float dt = max(longest, (last - s) / MAX_STEPS);
     dt = max(dt, LEAST_STEP * max(abs(s), abs(last)));
     float shape = TRANSPORT ? pairShape(dot(direction, frame.lights[0].direction.xyz)) : 1.0f;

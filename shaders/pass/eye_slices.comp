@@ -165,10 +165,7 @@ void main() {
 
     // The buffer may have room for larger batches.
     float layers = float(textureSize(lightBuffer, 0).z);
-    float maxStep = volume.texelC.w;
-    if (TRANSPORT) {
-      maxStep = min(maxStep, gridStep(boxStep));
-    }
+    float maxStep = min(volume.texelC.w, flatStep(boxStep));
     vec4 batch = vec4(0.0f, 0.0f, 0.0f, 1.0f);
     vec2 batchHidden = vec2(0.0f);
     // Plane at the far side of the current slab, in ray order; the half step keeps rounding at a

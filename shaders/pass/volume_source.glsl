@@ -71,11 +71,10 @@ vec4 gridZonal(vec3 direction) {
               0.375f * (square * (35.0f * square - 30.0f) + 3.0f));
 }
 
-// Longest step of a ray, in a layer half a cell: its slices lie far apart where light comes from
-// aside.
-float gridStep(vec3 boxStep) {
-  vec3 cells = abs(boxStep * volume.gridScale.xyz) * volume.gridScale.w;  // per m
-  return 0.5f / max(max(cells.x, cells.y), max(cells.z, 1.0e-20f));
+// Longest step of a ray in a flat volume: slabs lie far apart in one that is lit from aside.
+float flatStep(vec3 boxStep) {
+  vec3 stretches = abs(boxStep) * volume.flatStretches.xyz;  // per m
+  return 1.0f / max(max(stretches.x, stretches.y), max(stretches.z, 1.0e-20f));
 }
 
 // Light of sky and ground that is scattered towards the eye, as radiance.

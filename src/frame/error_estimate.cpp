@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "frame/transport_shape.hpp"
+
 namespace welkin {
 namespace {
 
@@ -157,9 +159,8 @@ class Body {
                           std::abs(glm::dot(glm::cross(axes[1], axes[2]), in.toLight)) +
                           std::abs(glm::dot(glm::cross(axes[2], axes[0]), in.toLight));
     const double size = std::abs(glm::determinant(axes));
-    const double thin = std::cbrt(volume.fill);  // the body's chord over the box's
-    lightDepth_ = volume.extinction * size / shadow * thin;
-    thin_ = thin;
+    thin_ = std::cbrt(volume.fill);
+    lightDepth_ = volume.extinction * size / shadow * thin_;
     double chord = 0;  // of the box and of a voxel, along the light
     double cell = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 3; ++i) {
@@ -173,14 +174,20 @@ class Body {
     voxelsAlong_ = chord / cell;
     const double edges[3] = {glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])};
     longest_ = *std::max_element(edges, edges + 3);
-    flatness_ = *std::min_element(edges, edges + 3) / longest_;
+    const auto thin = static_cast<size_t>(std::min_element(edges, edges + 3) - edges);
+    flatness_ = edges[thin] / longest_;
+    if (flatness_ < FLAT) {
+      thinVoxels_ = volume.voxels[thin];
+    }
     nearest_ = glm::length(volume.worldFromBox * glm::dvec4(0.5, 0.5, 0.5, 1) - in.eye);
   }
 
   // Error of so many slabs where the body is seen.
   double slices(double slabs) const {
+    const double across = flatStretchesAcross(static_cast<uint32_t>(slabs));
+    const double voxels = std::min(voxelsAlong_ / slabs, thinVoxels_ / across);
     return missing(FIT.slabScale * std::pow(lightDepth_ / slabs, FIT.slabPower) +
-                   FIT.voxelScale * std::pow(voxelsAlong_ / slabs, FIT.voxelPower) *
+                   FIT.voxelScale * std::pow(voxels, FIT.voxelPower) *
                        std::pow(std::max(1 / volume_.fill - 1, 0.0), FIT.edgePower));
   }
 
@@ -253,12 +260,13 @@ class Body {
   glm::dmat3 boxFromWorld_{1.0};
   glm::dvec3 eyeInBox_{0};
   double cover_;
-  double thin_ = 1;
+  double thin_ = 1;  // the body's chord over the box's
   double lightDepth_ = 0;
   double voxelsAlong_ = 0;
-  double longest_ = 0;   // edge, m
-  double flatness_ = 1;  // shortest edge over longest
-  double nearest_ = 0;   // distance of the middle, m
+  double thinVoxels_ = std::numeric_limits<double>::infinity();  // across a flat volume
+  double longest_ = 0;                                           // edge, m
+  double flatness_ = 1;                                          // shortest edge over longest
+  double nearest_ = 0;                                           // distance of the middle, m
 };
 
 // Light of air and fog that is drawn though volumes shade it; `ground`: that of the ground at

@@ -80,8 +80,25 @@ uint32_t transportImageEdge(uint32_t edge) {
   return edge + edge / 2;
 }
 
+glm::dvec3 flatStretches(const TransportShape& shape, uint32_t slices, bool transport) {
+  glm::dvec3 stretches(0);
+  if (shape.thinAxis < 0) {
+    return stretches;
+  }
+  // In a layer two in each cell of the grid, or one where that is many.
+  const double thin = shape.cells[static_cast<size_t>(shape.thinAxis)];
+  const double across = flatStretchesAcross(slices);
+  const double perCell = std::clamp(across / thin, 1.0, 2.0);
+  for (int i = 0; i < 3; ++i) {
+    const double all = perCell * shape.cells[static_cast<size_t>(i)];
+    const double cells = transport && shape.layer ? all : 0.0;
+    const double least = i == shape.thinAxis ? across : 0.0;
+    stretches[i] = std::max(cells, least) / shape.size[i];
+  }
+  return stretches;
+}
+
 TransportShape transportShape(const VolumeState& volume, uint32_t edge) {
-  constexpr double FLAT = 0.4;  // of the longest edge
   constexpr double LAYER = 0.1;
   const FilledBox filled = filledBox(volume);
   TransportShape shape;

@@ -239,8 +239,9 @@ void fillVolume(const VolumeState& volume, const PlannedVolume& planned, const g
   out.texelC = glm::vec4(glm::vec3(inverse * own.texelC), static_cast<float>(maxStep));
   out.middle = glm::vec4(glm::vec3(box * glm::dvec4(0.5, 0.5, 0.5, 1.0)),
                          static_cast<float>(layout.eyeStep * MARCH_STEP));
+  const TransportShape shape = transportShape(volume, quality.transportCells);
+  out.flatStretches = glm::vec4(flatStretches(shape, quality.sliceCount, quality.transport), 0.0f);
   if (quality.transport) {
-    const TransportShape shape = transportShape(volume, quality.transportCells);
     const GridPlace grid = placeGrid(shape, quality.cellRoom);
     if (shape.layer) {
       out.gridNormal = glm::vec4(glm::vec3(layerNormal(glm::dmat3(box), shape.thinAxis)), 0.0f);

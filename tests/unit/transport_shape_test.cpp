@@ -69,6 +69,40 @@ TEST_F(TransportShapeOf, LayersHaveTheCellsThatTheirDepthAsksFor) {
   EXPECT_EQ(transportShape(volume_, 32).cells, (std::array<uint32_t, 3>{40, 16, 40}));
 }
 
+TEST_F(TransportShapeOf, RaysInFlatVolumesHaveStretchesEnough) {
+  constexpr uint32_t FEW = 16;
+  for (const uint32_t edge : {8u, 16u, 24u, 32u, 64u, 128u}) {
+    for (const uint32_t slices : {FEW, 512u}) {
+      fill(1);
+      const double across = flatStretchesAcross(slices);
+      const TransportShape shape = transportShape(volume_, edge);
+      EXPECT_EQ(flatStretches(shape, slices, false), glm::dvec3(0, across, 0));
+      const glm::dvec3 stretches = flatStretches(shape, slices, true);
+      EXPECT_EQ(stretches.y, std::max<double>(across, shape.cells[1])) << edge << " " << slices;
+      EXPECT_GE(stretches.x, shape.cells[0]);
+      EXPECT_LE(stretches.x, 2 * shape.cells[0]);
+      EXPECT_EQ(stretches.x, stretches.z);
+    }
+  }
+  EXPECT_EQ(flatStretchesAcross(FEW), flatStretchesAcross(256));
+  EXPECT_EQ(flatStretchesAcross(2048), 2 * flatStretchesAcross(1024)) << "up to any limit";
+  // Across what is filled, not across the box around it.
+  fill(1, 4);
+  volume_.fields[0].filled.end[1] = 4;
+  const double stretches = flatStretches(transportShape(volume_, 32), FEW, false).y;
+  EXPECT_NEAR(stretches * 4.5 / 16, flatStretchesAcross(FEW), 1e-9);
+  place(5, 1);
+  fill(1);
+  for (const bool transport : {false, true}) {
+    EXPECT_EQ(flatStretches(transportShape(volume_, 32), FEW, transport),
+              glm::dvec3(0, flatStretchesAcross(FEW), 0))
+        << "flat, no layer: cells are cubes";
+  }
+  place(1, 1);
+  fill(1);
+  EXPECT_EQ(flatStretches(transportShape(volume_, 32), FEW, true), glm::dvec3(0)) << "not flat";
+}
+
 // Only layers: elsewhere cells are cubes, or as many along each axis.
 TEST_F(TransportShapeOf, OtherVolumesHaveCellsByTheirShapeAlone) {
   place(1, 1);
