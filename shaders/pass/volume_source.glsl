@@ -71,7 +71,7 @@ vec4 gridZonal(vec3 direction) {
               0.375f * (square * (35.0f * square - 30.0f) + 3.0f));
 }
 
-// Longest step of a ray in a flat volume: slabs lie far apart in one that is lit from aside.
+// Longest step of a ray in a flat volume: by slabs alone steps are long in one lit from aside.
 float flatStep(vec3 boxStep) {
   vec3 stretches = abs(boxStep) * volume.flatStretches.xyz;  // per m
   return 1.0f / max(max(stretches.x, stretches.y), max(stretches.z, 1.0e-20f));

@@ -176,7 +176,8 @@ class Body {
     longest_ = *std::max_element(edges, edges + 3);
     const auto thin = static_cast<size_t>(std::min_element(edges, edges + 3) - edges);
     flatness_ = edges[thin] / longest_;
-    if (flatness_ < FLAT) {
+    // Half-way between light and view the light still goes slab by slab.
+    if (flatness_ < FLAT && !in.quality.halfAngle) {
       thinVoxels_ = volume.voxels[thin];
     }
     nearest_ = glm::length(volume.worldFromBox * glm::dvec4(0.5, 0.5, 0.5, 1) - in.eye);

@@ -80,25 +80,25 @@ uint32_t transportImageEdge(uint32_t edge) {
   return edge + edge / 2;
 }
 
-glm::dvec3 flatStretches(const TransportShape& shape, uint32_t slices, bool transport) {
+glm::dvec3 flatStretches(const TransportShape& shape, uint32_t slices, bool grid) {
   glm::dvec3 stretches(0);
   if (shape.thinAxis < 0) {
     return stretches;
   }
-  // In a layer two in each cell of the grid, or one where that is many.
-  const double thin = shape.cells[static_cast<size_t>(shape.thinAxis)];
+  const auto thin = static_cast<size_t>(shape.thinAxis);
   const double across = flatStretchesAcross(slices);
-  const double perCell = std::clamp(across / thin, 1.0, 2.0);
-  for (int i = 0; i < 3; ++i) {
-    const double all = perCell * shape.cells[static_cast<size_t>(i)];
-    const double cells = transport && shape.layer ? all : 0.0;
-    const double least = i == shape.thinAxis ? across : 0.0;
-    stretches[i] = std::max(cells, least) / shape.size[i];
+  if (grid && shape.layer) {
+    // Two in each cell, or one where that is many.
+    const double perCell = std::clamp(across / shape.cells[thin], 1.0, 2.0);
+    for (int i = 0; i < 3; ++i) {
+      stretches[i] = perCell * shape.cells[static_cast<size_t>(i)];
+    }
   }
-  return stretches;
+  stretches[shape.thinAxis] = std::max(stretches[shape.thinAxis], across);
+  return stretches / shape.size;
 }
 
-TransportShape transportShape(const VolumeState& volume, uint32_t edge) {
+TransportShape flatShape(const VolumeState& volume) {
   constexpr double LAYER = 0.1;
   const FilledBox filled = filledBox(volume);
   TransportShape shape;
@@ -111,8 +111,13 @@ TransportShape transportShape(const VolumeState& volume, uint32_t edge) {
       shape.thinAxis = i;
     }
   }
-  shape.cells = {edge, edge, edge};
   shape.layer = shape.thinAxis >= 0 && extent[shape.thinAxis] < LAYER * longest;
+  return shape;
+}
+
+TransportShape transportShape(const VolumeState& volume, uint32_t edge) {
+  TransportShape shape = flatShape(volume);
+  shape.cells = {edge, edge, edge};
   if (shape.layer) {
     const uint32_t voxels = volume.size[static_cast<size_t>(shape.thinAxis)];
     shape.cells = layerCells(edge, shape.thinAxis, thinDepth(volume), voxels);
@@ -121,6 +126,8 @@ TransportShape transportShape(const VolumeState& volume, uint32_t edge) {
     return shape;
   }
   // The finest cubes whose count fits.
+  const glm::dvec3 extent = extentOf(volume, filledBox(volume));
+  const double longest = std::max({extent.x, extent.y, extent.z});
   double cube = longest / edge;
   for (uint32_t along = edge; along <= transportImageEdge(edge); along += 8) {
     std::array<uint32_t, 3> cells{};

@@ -20,11 +20,15 @@ constexpr double FLAT = 0.4;  // of the longest edge
 TransportShape transportShape(const VolumeState& volume, uint32_t edge);
 uint32_t transportImageEdge(uint32_t edge);
 
+// All but the cells. Makes no table of the phase function, which a layer's cells ask for.
+TransportShape flatShape(const VolumeState& volume);
+
 // Least stretches of a ray in a flat volume, from face to face of the unit box along each axis; 0
-// elsewhere. The slabs of a layer lit from aside lie further apart than its faces: a stretch for
-// each left 27 % of error at 16 slices (tests/image/flat_layer_test.cpp).
-// `transport`: light of all orders comes from the grid.
-glm::dvec3 flatStretches(const TransportShape& shape, uint32_t slices, bool transport);
+// elsewhere. An eye's steps go by how far the light goes through the box, which is as far as a
+// layer is wide where light comes from aside: such steps alone left 27 % of error at 16 slices
+// (tests/image/flat_layer_test.cpp).
+// `grid`: light of all orders comes from the grid, whose cells then count.
+glm::dvec3 flatStretches(const TransportShape& shape, uint32_t slices, bool grid);
 // Of a ray across what is filled: more with many slices, whose pictures shall come to a limit.
 constexpr double flatStretchesAcross(uint32_t slices) {
   return slices > 256 ? slices / 16.0 : 16.0;

@@ -239,7 +239,8 @@ void fillVolume(const VolumeState& volume, const PlannedVolume& planned, const g
   out.texelC = glm::vec4(glm::vec3(inverse * own.texelC), static_cast<float>(maxStep));
   out.middle = glm::vec4(glm::vec3(box * glm::dvec4(0.5, 0.5, 0.5, 1.0)),
                          static_cast<float>(layout.eyeStep * MARCH_STEP));
-  const TransportShape shape = transportShape(volume, quality.transportCells);
+  const TransportShape shape =
+      quality.transport ? transportShape(volume, quality.transportCells) : flatShape(volume);
   out.flatStretches = glm::vec4(flatStretches(shape, quality.sliceCount, quality.transport), 0.0f);
   if (quality.transport) {
     const GridPlace grid = placeGrid(shape, quality.cellRoom);

@@ -56,6 +56,24 @@ TEST(SteadyFrame, MakesNothingWhileCameraSunAndVolumesMove) {
   EXPECT_TRUE(scene.device().messages().empty()) << scene.device().messages().front();
 }
 
+// What wlkPrepare has not made for this form of scattering no frame asks for, not the first either.
+TEST(SteadyFrame, FirstFrameOfALayerInItsFirstOrderAllocatesNothing) {
+  CountingAllocator memory;
+  EngineScene scene(small(memory));
+  const WlkVolume volume = scene.addBall(0.01f);
+  const auto flat = boxTransform({-1000, 500, -6000}, {2000, 50, 2000});
+  ASSERT_EQ(wlkSetVolumeTransform(scene.context, volume, flat.data()), WLK_SUCCESS);
+  auto quality = make<WlkQuality>();
+  quality.scattering = WLK_SCATTERING_SINGLE;
+  ASSERT_EQ(wlkSetQuality(scene.context, scene.view, &quality), WLK_SUCCESS);
+  scene.setSun(20, 10);
+  scene.setCamera({0, 2, 0}, 0, 12);
+  ASSERT_EQ(wlkPrepare(scene.context), WLK_SUCCESS);
+  const uint64_t before = libraryAllocations();
+  scene.renderFrame();
+  EXPECT_EQ(libraryAllocations(), before);
+}
+
 TEST(SteadyFrame, AllocationsOfTheRuntimeAreSeen) {
   CountingAllocator memory;
   EngineScene scene(small(memory));

@@ -79,11 +79,14 @@ TEST_F(TransportShapeOf, RaysInFlatVolumesHaveStretchesEnough) {
       EXPECT_EQ(flatStretches(shape, slices, false), glm::dvec3(0, across, 0));
       const glm::dvec3 stretches = flatStretches(shape, slices, true);
       EXPECT_EQ(stretches.y, std::max<double>(across, shape.cells[1])) << edge << " " << slices;
-      EXPECT_GE(stretches.x, shape.cells[0]);
-      EXPECT_LE(stretches.x, 2 * shape.cells[0]);
       EXPECT_EQ(stretches.x, stretches.z);
     }
   }
+  // Cells of 48 x 8 x 48: two to a cell; of 128^3 one.
+  EXPECT_EQ(flatStretches(transportShape(volume_, 32), FEW, true), glm::dvec3(96, 16, 96));
+  fill(1e4);
+  EXPECT_EQ(flatStretches(transportShape(volume_, 128), FEW, true), glm::dvec3(128));
+  fill(1);
   EXPECT_EQ(flatStretchesAcross(FEW), flatStretchesAcross(256));
   EXPECT_EQ(flatStretchesAcross(2048), 2 * flatStretchesAcross(1024)) << "up to any limit";
   // Across what is filled, not across the box around it.
