@@ -48,8 +48,14 @@ struct SurfaceCover {
   uint leave;  // ~ the nearest at which one leaves
   uint back;   // farthest at which one leaves; 0 where it never does
   int chord;   // depths of leaving less those of entering
-  int net;     // how often it leaves less how often it enters: of rays from outside 0
+  uint end;    // ~ the depth at which rays end; 0 where they never do
 };
+// Its words.
+const uint SURFACE_COVER_WORDS = 5u;
+const uint SURFACE_FRONT = 0u;
+const uint SURFACE_LEAVE = 1u;
+const uint SURFACE_BACK = 2u;
+const uint SURFACE_CHORD = 3u;
 
 // Triangles that a texel of the light map shows, and 1 more: on the lit side and on the other.
 struct SurfaceFaces {
@@ -59,7 +65,11 @@ struct SurfaceFaces {
 
 const uint SURFACE_LANES = 64u;   // triangles of a workgroup
 const uint SURFACE_ROW = 32768u;  // workgroups along x
+const uint SURFACE_CELL = 4u;     // pixels along an edge that one lane lists
+const uint SURFACE_LIST_HEAD = 4u;
 const uint SURFACE_SMALL = 32u;   // pixels that one lane walks alone
+const uint SURFACE_TEAM = 8u;     // lanes that
+const uint SURFACE_MIDDLE = 1024u;  // walk so many together
 const uint SHELL_PIXELS = 4u;     // of the picture that fills the cells, along a cell's edge
 const float SHELL_OUTSIDE = 1.5f;  // depth in cells beyond the box, below the surface's 0
 const uint SHELL_FULL = 1024u;    // what one of them counts in a cell that is all cloud

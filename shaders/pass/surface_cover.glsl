@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Triangles into the pixels of a SurfaceCover buffer: a workgroup has a triangle for each lane, and
-// shares those that cover many pixels. Before: `surfaceVertex(i)` a mesh position,
+// Triangles into the pixels of a SurfaceCover buffer: a workgroup has a triangle for each lane;
+// those that cover many pixels are shared by some lanes, or by all. Before: `surfaceVertex(i)` a mesh position,
 // `surfaceIndex(k)`, and `surfaceCross(uniforms, pixel, index in the buffer, crossing, triangle)`.
 
 // Beside the exact box of a triangle, for the rounding of its corners.
@@ -10,6 +10,8 @@ const float SURFACE_NEAR = 1.0e-4f;
 
 shared uint surfaceLarge[SURFACE_LANES];
 shared uint surfaceLargeCount;
+shared uint surfaceMiddle[SURFACE_LANES];
+shared uint surfaceMiddleCount;
 
 struct SurfaceTriangle {
   vec3 a;
@@ -78,15 +80,26 @@ uint surfaceStep(SurfaceUniforms s, float depth) {
 
 // Every `stride`th pixel of the triangle's box.
 void coverBox(SurfaceUniforms s, SurfaceTriangle t, uint triangle, uint first, uint stride) {
-  uint width = uint(max(t.box.z - t.box.x, 0));
+  uint width = max(uint(max(t.box.z - t.box.x, 0)), 1u);
   uint count = surfaceBoxSize(t.box);
+  // Rows and columns ahead, once: lavapipe divides integers lane by lane.
+  uint down = stride / width;
+  uint right = stride - down * width;
+  uint y = first / width;
+  uint x = first - y * width;
   for (uint n = first; n < count; n += stride) {
-    ivec2 pixel = t.box.xy + ivec2(int(n % width), int(n / width));
+    ivec2 pixel = t.box.xy + ivec2(int(x), int(y));
     SurfaceCrossing crossing = surfaceCrossing(t.a, t.b, t.c, t.turned, t.depths, vec2(pixel));
     if (crossing.facing != 0.0f && crossing.depth > s.steps.w) {
       crossing.facing = s.triangle.z != 0u ? -crossing.facing : crossing.facing;
       uint at = uint(pixel.y - s.rect.y) * uint(s.rect.z - s.rect.x) + uint(pixel.x - s.rect.x);
       surfaceCross(s, pixel, at, crossing, triangle);
+    }
+    x += right;
+    y += down;
+    if (x >= width) {
+      x -= width;
+      y += 1u;
     }
   }
 }
@@ -95,6 +108,7 @@ void coverBox(SurfaceUniforms s, SurfaceTriangle t, uint triangle, uint first, u
 void coverTriangles(SurfaceUniforms s, uvec3 group, uint lane) {
   if (lane == 0u) {
     surfaceLargeCount = 0u;
+    surfaceMiddleCount = 0u;
   }
   memoryBarrierShared();
   barrier();
@@ -103,14 +117,22 @@ void coverTriangles(SurfaceUniforms s, uvec3 group, uint lane) {
   uint triangle = (group.y * SURFACE_ROW + group.x) * SURFACE_LANES + lane;
   if (triangle < s.triangle.x) {
     SurfaceTriangle t = surfaceTriangle(s, strip, triangle);
-    if (surfaceBoxSize(t.box) <= SURFACE_SMALL) {
+    uint pixels = surfaceBoxSize(t.box);
+    if (pixels <= SURFACE_SMALL) {
       coverBox(s, t, triangle, 0u, 1u);
+    } else if (pixels <= SURFACE_MIDDLE) {
+      surfaceMiddle[atomicAdd(surfaceMiddleCount, 1u)] = triangle;
     } else {
       surfaceLarge[atomicAdd(surfaceLargeCount, 1u)] = triangle;
     }
   }
   memoryBarrierShared();
   barrier();
+  uint middle = surfaceMiddleCount;
+  for (uint i = lane / SURFACE_TEAM; i < middle; i += SURFACE_LANES / SURFACE_TEAM) {
+    SurfaceTriangle t = surfaceTriangle(s, strip, surfaceMiddle[i]);
+    coverBox(s, t, surfaceMiddle[i], lane & (SURFACE_TEAM - 1u), SURFACE_TEAM);
+  }
   uint large = surfaceLargeCount;
   for (uint i = 0u; i < large; ++i) {
     SurfaceTriangle t = surfaceTriangle(s, strip, surfaceLarge[i]);

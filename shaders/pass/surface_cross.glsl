@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A crossing counted in its pixel. Before: `surfaceCover[]`, `surfaceLimit(pixel)` in steps.
-void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing,
-                  uint triangle) {
-  uint step_ = min(surfaceStep(s, crossing.depth), surfaceLimit(pixel));
-  if (crossing.facing > 0.0f) {
-    atomicMax(surfaceCover[at].front, ~step_);
-    atomicAdd(surfaceCover[at].chord, -int(step_));
-    atomicAdd(surfaceCover[at].net, -1);
-  } else {
-    atomicMax(surfaceCover[at].leave, ~step_);
-    atomicMax(surfaceCover[at].back, step_);
-    atomicAdd(surfaceCover[at].chord, int(step_));
-    atomicAdd(surfaceCover[at].net, 1);
-  }
+// A crossing counted in its pixel. Before: the cover's words as `surfaceWords[]`. Each word by one
+// operation for entering and leaving, as drivers such as lavapipe take lanes through both branches,
+// one after the other in each.
+void surfaceCount(uint at, SurfaceCrossing crossing, uint step_) {
+  bool enters = crossing.facing > 0.0f;
+  uint first = at * SURFACE_COVER_WORDS;
+  atomicMax(surfaceWords[first + (enters ? SURFACE_FRONT : SURFACE_LEAVE)], ~step_);
+  atomicAdd(surfaceWords[first + SURFACE_CHORD], enters ? ~step_ + 1u : step_);
+  atomicMax(surfaceWords[first + SURFACE_BACK], enters ? 0u : step_);
 }

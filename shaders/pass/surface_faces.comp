@@ -7,7 +7,7 @@
 
 layout(local_size_x = 64) in;
 #include "surface_mesh.glsl"
-layout(set = 0, binding = 8, std430) buffer Faces { SurfaceFaces faces[]; };
+layout(set = 0, binding = 8, std430) buffer Faces { uint faceWords[]; };
 
 void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing,
                   uint triangle);
@@ -16,11 +16,10 @@ void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing cross
 void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing,
                   uint triangle) {
   uint step_ = surfaceStep(s, crossing.depth);
-  if (crossing.facing > 0.0f && ~step_ == surfaceCover[at].front) {
-    atomicMax(faces[at].lit, triangle + 1u);
-  }
-  if (crossing.facing < 0.0f && step_ == surfaceCover[at].back) {
-    atomicMax(faces[at].shaded, triangle + 1u);
+  bool enters = crossing.facing > 0.0f;
+  uint word = at * SURFACE_COVER_WORDS + (enters ? SURFACE_FRONT : SURFACE_BACK);
+  if (surfaceWords[word] == (enters ? ~step_ : step_)) {
+    atomicMax(faceWords[2u * at + (enters ? 0u : 1u)], triangle + 1u);
   }
 }
 

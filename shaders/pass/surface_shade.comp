@@ -41,6 +41,7 @@ layout(set = 0, binding = 22) uniform sampler2D skyShare;
 layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "surface_mesh.glsl"
+#include "surface_list.glsl"
 #include "../interface/sky_table.glsl"
 #include "ray.glsl"
 #include "fog_curve.glsl"
@@ -207,114 +208,110 @@ vec3 ambientAt(vec3 p, vec3 direction, ShellRay shell, float distance_) {
 }
 
 void main() {
-  ivec2 pixel = surface.shade.xy + ivec2(gl_GlobalInvocationID.xy);
-  if (pixel.x >= surface.shade.z || pixel.y >= surface.shade.w) {
+  uint group = gl_WorkGroupID.y * LIST_ROW + gl_WorkGroupID.x;
+  ivec2 pixel = listedPixel(group * 64u + gl_LocalInvocationIndex);
+  if (pixel.x < 0) {
     return;
   }
-  SurfaceCover cover;
-  cover.chord = 0;
-  if (all(greaterThanEqual(pixel, surface.rect.xy)) && all(lessThan(pixel, surface.rect.zw))) {
-    cover = surfaceCover[uint(pixel.y - surface.rect.y) * uint(surface.rect.z - surface.rect.x) +
-                         uint(pixel.x - surface.rect.x)];
-  }
+  SurfaceCover cover =
+      surfaceCover[uint(pixel.y - surface.rect.y) * uint(surface.rect.z - surface.rect.x) +
+                   uint(pixel.x - surface.rect.x)];
   uint index = uint(pixel.y) * uint(frame.viewport.x) + uint(pixel.x);
   vec4 state = vec4(0.0f, 0.0f, 0.0f, 1.0f);
   vec2 hidden = vec2(0.0f);
-  if (cover.chord > 0) {
-    vec3 direction = pixelDirection(frame, vec2(pixel));
-    float along = 1.0f / max(dot(direction, surface.axis.xyz), 1.0e-4f);
-    Inside inside = insideOf(cover, along / surface.steps.y, along * surface.steps.x);
-    ShellRay shell;
-    ShellMarch march;
-    march.filled = inside.chord;
-    march.lost = 0.0f;
-    if (DETAIL) {
-      shell = shellRay(inside, direction);
-      float most = chordDepth(SURFACE_SAMPLE, surface.optics.z * inside.chord);
-      march = shellMarch(inside, shell, surface.optics.y, most / max(surface.optics.z, 1.0e-20f));
-    }
-    float tau = surface.optics.y * march.filled;
-    AirNodes nodes = airNodes(direction, inside.front, inside.back);
-    float through = 1.0f;
-    vec3 sum = vec3(0.0f);
-    vec3 smooth_ = LIGHT_ENABLED ? phaseAt(0u, direction) : vec3(0.0f);
-    vec3 peak = LIGHT_ENABLED ? phaseAt(1u, direction) : vec3(0.0f);
-    // Stretches of equal opacity of what detail leaves; in [B08] of the whole chord.
-#ifdef SHELL_NOISE_COMPUTED
-    float cut = surface.optics.y * inside.chord;
-    float first_ = 0.0f;
-#else
-    float cut = tau;
-    float first_ = march.lost;
-#endif
-    float begin = 0.0f;
-    ChordLight whole = emptyChord();
-    float depth = surface.optics.z * march.filled;
-    float sample_ = min(chordDepth(SURFACE_SAMPLE, depth) / max(surface.optics.z, 1.0e-20f),
-                        march.filled);
-    float distance_ = pointAt(inside, march.lost + sample_);
-    float near = pointAt(inside, march.lost);
-    float shadeNear = LIGHT_ENABLED ? shadeAt(near * direction) : 0.0f;
-    // What detail takes from the way to the light at the first point and at the one whose light
-    // stands for all; between them linear.
-    vec2 lost = vec2(0.0f);
-    if (LIGHT_ENABLED && DETAIL) {
-      vec3 toLight = frame.lights[0].direction.xyz;
-      lost.x = shellShadeLost(shellRayTo(shell, near, toLight), shadeNear);
-      lost.y =
-          shellShadeLost(shellRayTo(shell, distance_, toLight), shadeAt(distance_ * direction));
-      shadeNear -= lost.x;
-    }
-    for (int i = 1; i <= STRETCHES; ++i) {
-      float end = chordDepth(float(i) / float(STRETCHES), cut) / max(surface.optics.y, 1.0e-20f);
-      float length_ = max(end - begin, 0.0f);
-      AirAt air = airAt(nodes, pointAt(inside, first_ + begin + 0.5f * length_));
-#ifdef SHELL_NOISE_COMPUTED
-      if (DETAIL) {
-        length_ = shellStretch(inside, shell, begin, length_);
-      }
-      float passed = through * exp(-surface.optics.y * length_);
-#else
-      float passed = exp(-min(surface.optics.y * end, EXP_CUT));
-#endif
-      if (LIGHT_ENABLED) {
-        float taken = mix(lost.x, lost.y, min(end / max(sample_, 1.0e-20f), 1.0f));
-        float shadeFar = max(shadeAt(pointAt(inside, first_ + end) * direction) - taken, 0.0f);
-        float once = through * segmentInscatter(surface.optics.y * shadeNear,
-                                                surface.optics.y * shadeFar,
-                                                surface.optics.y * length_);
-        float before = whole.inscatter;
-        whole = chordStretch(whole, surface.optics.x * shadeNear, surface.optics.x * shadeFar,
-                             surface.optics.x * length_);
-        sum += (smooth_ * once + peak * (whole.inscatter - before)) * surface.albedo.xyz *
-               air.light * air.transmittance;
-        shadeNear = shadeFar;
-      }
-      sum += air.radiance * (through - passed);
-      if (DISTANCE) {
-        float middle = pointAt(inside, first_ + begin + 0.5f * length_);
-        hidden += (through - passed) * vec2(middle, 1.0f);
-      }
-      through = passed;
-      begin = end;
-    }
-#ifdef SHELL_NOISE_COMPUTED
-    through = exp(-min(tau, EXP_CUT));
-#endif
-    if (LIGHT_ENABLED || AMBIENT) {
-      vec3 p = distance_ * direction;
-      AirAt air = airAt(nodes, distance_);
-      vec3 light = vec3(0.0f);
-      if (LIGHT_ENABLED) {
-        light += oneMinusExp(depth) * scatteredAt(p, direction, lost.y) * air.light;
-      }
-      if (AMBIENT) {
-        light += (1.0f - through) * ambientAt(p, direction, shell, distance_);
-      }
-      sum += light * air.transmittance;
-    }
-    state = vec4(sum, through);
+  vec3 direction = pixelDirection(frame, vec2(pixel));
+  float along = 1.0f / max(dot(direction, surface.axis.xyz), 1.0e-4f);
+  Inside inside = insideOf(cover, along / surface.steps.y, along * surface.steps.x);
+  ShellRay shell;
+  ShellMarch march;
+  march.filled = inside.chord;
+  march.lost = 0.0f;
+  if (DETAIL) {
+    shell = shellRay(inside, direction);
+    float most = chordDepth(SURFACE_SAMPLE, surface.optics.z * inside.chord);
+    march = shellMarch(inside, shell, surface.optics.y, most / max(surface.optics.z, 1.0e-20f));
   }
+  float tau = surface.optics.y * march.filled;
+  AirNodes nodes = airNodes(direction, inside.front, inside.back);
+  float through = 1.0f;
+  vec3 sum = vec3(0.0f);
+  vec3 smooth_ = LIGHT_ENABLED ? phaseAt(0u, direction) : vec3(0.0f);
+  vec3 peak = LIGHT_ENABLED ? phaseAt(1u, direction) : vec3(0.0f);
+  // Stretches of equal opacity of what detail leaves; in [B08] of the whole chord.
+#ifdef SHELL_NOISE_COMPUTED
+  float cut = surface.optics.y * inside.chord;
+  float first_ = 0.0f;
+#else
+  float cut = tau;
+  float first_ = march.lost;
+#endif
+  float begin = 0.0f;
+  ChordLight whole = emptyChord();
+  float depth = surface.optics.z * march.filled;
+  float sample_ = min(chordDepth(SURFACE_SAMPLE, depth) / max(surface.optics.z, 1.0e-20f),
+                      march.filled);
+  float distance_ = pointAt(inside, march.lost + sample_);
+  float near = pointAt(inside, march.lost);
+  float shadeNear = LIGHT_ENABLED ? shadeAt(near * direction) : 0.0f;
+  // What detail takes from the way to the light at the first point and at the one whose light
+  // stands for all; between them linear.
+  vec2 lost = vec2(0.0f);
+  if (LIGHT_ENABLED && DETAIL) {
+    vec3 toLight = frame.lights[0].direction.xyz;
+    lost.x = shellShadeLost(shellRayTo(shell, near, toLight), shadeNear);
+    lost.y =
+        shellShadeLost(shellRayTo(shell, distance_, toLight), shadeAt(distance_ * direction));
+    shadeNear -= lost.x;
+  }
+  for (int i = 1; i <= STRETCHES; ++i) {
+    float end = chordDepth(float(i) / float(STRETCHES), cut) / max(surface.optics.y, 1.0e-20f);
+    float length_ = max(end - begin, 0.0f);
+    AirAt air = airAt(nodes, pointAt(inside, first_ + begin + 0.5f * length_));
+#ifdef SHELL_NOISE_COMPUTED
+    if (DETAIL) {
+      length_ = shellStretch(inside, shell, begin, length_);
+    }
+    float passed = through * exp(-surface.optics.y * length_);
+#else
+    float passed = exp(-min(surface.optics.y * end, EXP_CUT));
+#endif
+    if (LIGHT_ENABLED) {
+      float taken = mix(lost.x, lost.y, min(end / max(sample_, 1.0e-20f), 1.0f));
+      float shadeFar = max(shadeAt(pointAt(inside, first_ + end) * direction) - taken, 0.0f);
+      float once = through * segmentInscatter(surface.optics.y * shadeNear,
+                                              surface.optics.y * shadeFar,
+                                              surface.optics.y * length_);
+      float before = whole.inscatter;
+      whole = chordStretch(whole, surface.optics.x * shadeNear, surface.optics.x * shadeFar,
+                           surface.optics.x * length_);
+      sum += (smooth_ * once + peak * (whole.inscatter - before)) * surface.albedo.xyz *
+             air.light * air.transmittance;
+      shadeNear = shadeFar;
+    }
+    sum += air.radiance * (through - passed);
+    if (DISTANCE) {
+      float middle = pointAt(inside, first_ + begin + 0.5f * length_);
+      hidden += (through - passed) * vec2(middle, 1.0f);
+    }
+    through = passed;
+    begin = end;
+  }
+#ifdef SHELL_NOISE_COMPUTED
+  through = exp(-min(tau, EXP_CUT));
+#endif
+  if (LIGHT_ENABLED || AMBIENT) {
+    vec3 p = distance_ * direction;
+    AirAt air = airAt(nodes, distance_);
+    vec3 light = vec3(0.0f);
+    if (LIGHT_ENABLED) {
+      light += oneMinusExp(depth) * scatteredAt(p, direction, lost.y) * air.light;
+    }
+    if (AMBIENT) {
+      light += (1.0f - through) * ambientAt(p, direction, shell, distance_);
+    }
+    sum += light * air.transmittance;
+  }
+  state = vec4(sum, through);
   bool first = (slice.flags & SLICE_FIRST_VOLUME) != 0u;
   if (DISTANCE) {
     vec4 kept = vec4(hidden, hidden);

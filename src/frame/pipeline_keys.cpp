@@ -38,10 +38,15 @@ vk::PipelineKey spreadKey(uint32_t to, bool depth, bool distance, bool behind) {
   return key;
 }
 
-vk::PipelineKey surfaceCoverKey(bool view, bool depth) {
-  vk::PipelineKey key{vk::Pass::SurfaceCover, VK_FORMAT_UNDEFINED, {}};
+vk::PipelineKey surfaceEndsKey(bool depth) {
+  vk::PipelineKey key{vk::Pass::SurfaceEnds, VK_FORMAT_UNDEFINED, {}};
   key.constants[5] = depth;
-  key.constants[6] = view;
+  return key;
+}
+
+vk::PipelineKey surfaceCoverKey(bool ends) {
+  vk::PipelineKey key{vk::Pass::SurfaceCover, VK_FORMAT_UNDEFINED, {}};
+  key.constants[5] = ends;
   return key;
 }
 
@@ -63,6 +68,12 @@ vk::PipelineKey surfaceMapKey(bool fromLevel, bool detail) {
   vk::PipelineKey key{vk::Pass::SurfaceMap, VK_FORMAT_UNDEFINED, {}};
   key.constants[3] = fromLevel;
   key.constants[7] = detail;
+  return key;
+}
+
+vk::PipelineKey surfaceListKey(bool distance) {
+  vk::PipelineKey key{vk::Pass::SurfaceList, VK_FORMAT_UNDEFINED, {}};
+  key.constants[14] = distance;
   return key;
 }
 
@@ -132,14 +143,15 @@ static void prepareSurfaces(vk::Pipelines& pipelines, const ViewState& view,
                             const SliceQuality& quality, const SurfaceVariant& usual) {
   pipelines.prepare(surfaceFacesKey());
   pipelines.prepare(surfaceCellsKey());
-  pipelines.prepare(surfaceCoverKey(false, false));
   pipelines.prepare(surfaceMapKey(true, false));
   for (const bool either : {false, true}) {
-    pipelines.prepare(surfaceCoverKey(true, either));
+    pipelines.prepare(surfaceEndsKey(either));
+    pipelines.prepare(surfaceCoverKey(either));
     pipelines.prepare(surfaceMapKey(false, either));
     pipelines.prepare(surfaceShellKey(either));
   }
   for (const bool distance : {false, view.volumeDistance}) {
+    pipelines.prepare(surfaceListKey(distance));
     for (const bool light : {false, usual.light}) {
       for (const bool all : {false, light && usual.air > 0 && !usual.fog && quality.multipleSky}) {
         for (const bool ambient : {false, usual.ambient}) {

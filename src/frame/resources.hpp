@@ -75,11 +75,13 @@ struct SurfaceVariant {
   uint32_t air;  // Plan::airKind
   bool fog, light, allLight, distance, ambient, detail;
 };
-vk::PipelineKey surfaceCoverKey(bool view, bool depth);
+vk::PipelineKey surfaceEndsKey(bool depth);
+vk::PipelineKey surfaceCoverKey(bool ends);
 vk::PipelineKey surfaceFacesKey();
 vk::PipelineKey surfaceCellsKey();
 vk::PipelineKey surfaceShellKey(bool means);
 vk::PipelineKey surfaceMapKey(bool fromLevel, bool detail);
+vk::PipelineKey surfaceListKey(bool distance);
 vk::PipelineKey surfaceShadeKey(const SurfaceVariant& variant, const SliceQuality& quality);
 vk::PipelineKey distanceKey();
 // What pixels between rays take on.

@@ -32,6 +32,11 @@ vk::PipelineKey shadeKeyOf(const FrameCommands& c, const ViewTargets& targets,
                          c.quality);
 }
 
+// Whether anything opaque, or the ground, may end rays.
+bool raysEnd(const FrameCommands& c, const ViewTargets& targets) {
+  return static_cast<bool>(targets.depth) || c.view.plan.ground;
+}
+
 class SurfaceRecorder {
  public:
   SurfaceRecorder(FrameCommands& commands, const ViewTargets& targets, const PlannedVolume& planned)
@@ -128,7 +133,7 @@ class SurfaceRecorder {
     clear(resources().surfaceCover, sizeof(SurfaceCover) * light.size * light.size);
     clear(resources().surfaceFaces, sizeof(SurfaceFaces) * light.size * light.size);
     orderClears();
-    triangles(surfaceCoverKey(false, false), uniforms, stats, index_);
+    triangles(surfaceCoverKey(false), uniforms, stats, index_);
     c_.orderShaders();
     triangles(surfaceFacesKey(), uniforms, stats, index_);
     recordLevels(light.size, stats);
@@ -200,14 +205,41 @@ class SurfaceRecorder {
     if (pixels > 0) {
       clear(resources().surfaceCover, sizeof(SurfaceCover) * pixels);
       orderClears();
-      triangles(surfaceCoverKey(true, static_cast<bool>(targets_.depth)), uniforms, stats,
-                index_ + 1);
+      const bool ends = raysEnd(c_, targets_);
+      if (ends) {
+        c_.dispatch(c_.find(surfaceEndsKey(static_cast<bool>(targets_.depth))),
+                    c_.pipelines.surfaceLayout(), nullptr,
+                    groups(planned_.rect.x1 - planned_.rect.x0),
+                    groups(planned_.rect.y1 - planned_.rect.y0), stats, index_ + 1);
+        c_.orderShaders();
+      }
+      triangles(surfaceCoverKey(ends), uniforms, stats, index_ + 1);
     }
-    c_.orderShaders();
+    emptyList();
     SliceConstants push{};
     push.flags = first ? interface_::SLICE_FIRST_VOLUME : 0;
-    c_.dispatch(c_.find(shadeKeyOf(c_, targets_, planned_)), c_.pipelines.surfaceLayout(), &push,
-                groups(shade.x1 - shade.x0), groups(shade.y1 - shade.y0), stats, index_ + 1);
+    constexpr uint32_t CELL = interface_::SURFACE_CELL;
+    c_.dispatch(c_.find(surfaceListKey(static_cast<bool>(targets_.volumeDistance))),
+                c_.pipelines.surfaceLayout(), &push,
+                groups((shade.x1 - shade.x0 + CELL - 1) / CELL),
+                groups((shade.y1 - shade.y0 + CELL - 1) / CELL), stats, index_ + 1);
+    c_.barrier({COMPUTE, SHADER_ACCESS}, {COMPUTE | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                                          SHADER_ACCESS | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
+    c_.dispatchIndirect(c_.find(shadeKeyOf(c_, targets_, planned_)),
+                        resources().surfaceList.handle(), sizeof(uint32_t), stats, index_ + 1);
+  }
+
+  // Its head: no pixel, and the dispatch's groups.
+  void emptyList() {
+    const std::array<uint32_t, interface_::SURFACE_LIST_HEAD> head{0, interface_::LIST_ROW, 0, 1};
+    c_.barrier({COMPUTE | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                SHADER_ACCESS | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT},
+               {VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT});
+    c_.vk.CmdUpdateBuffer(c_.commands, resources().surfaceList.handle(), 0, sizeof head,
+                          head.data());
+    c_.barrier({COMPUTE | VK_PIPELINE_STAGE_2_TRANSFER_BIT,
+                SHADER_ACCESS | VK_ACCESS_2_TRANSFER_WRITE_BIT},
+               {COMPUTE, SHADER_ACCESS});
   }
 
   void triangles(const vk::PipelineKey& key, const SurfaceUniforms& uniforms, WlkPassStats& stats,
@@ -250,6 +282,7 @@ class SurfaceRecorder {
     storage(vk::BIND_SURFACE_VERTICES, surface_.vertices);
     storage(vk::BIND_SURFACE_INDICES, surface_.indices);
     storage(vk::BIND_SURFACE_COVER, r.surfaceCover);
+    storage(vk::BIND_SURFACE_LIST, r.surfaceList);
     storage(vk::BIND_SURFACE_STATE, r.frameState);
     storage(vk::BIND_SURFACE_LIGHT_DEPTHS, light.depths);
     const SurfaceLight& up = up_ != nullptr ? *up_ : light_;
@@ -308,7 +341,7 @@ void findSurfacePipelines(const FrameCommands& commands, const ViewTargets& targ
   }
   const RecordSurface& surface = commands.in.surfaces[planned.index];
   if (planned.lit || planned.ambient) {
-    commands.find(surfaceCoverKey(false, false));
+    commands.find(surfaceCoverKey(false));
     commands.find(surfaceFacesKey());
     commands.find(surfaceMapKey(false, isDetailed(*surface.state)));
     commands.find(surfaceMapKey(true, false));
@@ -316,7 +349,9 @@ void findSurfacePipelines(const FrameCommands& commands, const ViewTargets& targ
     commands.find(surfaceShellKey(false));
     commands.find(surfaceShellKey(true));
   }
-  commands.find(surfaceCoverKey(true, static_cast<bool>(targets.depth)));
+  commands.find(surfaceEndsKey(static_cast<bool>(targets.depth)));
+  commands.find(surfaceCoverKey(raysEnd(commands, targets)));
+  commands.find(surfaceListKey(static_cast<bool>(targets.volumeDistance)));
   commands.find(shadeKeyOf(commands, targets, planned));
   if (surface.light == nullptr || (planned.ambient && surface.up == nullptr)) {
     fail(WLK_ERROR_NOT_PREPARED, 0, "view", "call wlkPrepare before recording");
@@ -346,6 +381,10 @@ void makeSurfaces(vk::Device& device, const WlkViewInfo& info, const SliceQualit
   constexpr VkBufferUsageFlags CLEARED =
       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
   r.surfaceCover = vk::Buffer(device, bytes, CLEARED, false);
+  r.surfaceList = vk::Buffer(
+      device,
+      sizeof(uint32_t) * (interface_::SURFACE_LIST_HEAD + VkDeviceSize{info.width} * info.height),
+      CLEARED | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, false);
   r.surfaceFaces = vk::Buffer(device, texels * sizeof(SurfaceFaces), CLEARED, false);
   r.surfaceLevels =
       vk::Buffer(device, VkDeviceSize{32} * surfaceMapTexels(size),

@@ -25,8 +25,8 @@ namespace welkin::vk {
   X(AllocateDescriptorSets) X(UpdateDescriptorSets) X(CreateQueryPool) X(DestroyQueryPool)      \
   X(GetQueryPoolResults) X(CmdPipelineBarrier2) X(CmdCopyBufferToImage) X(CmdCopyBuffer)         \
   X(CmdCopyImageToBuffer) X(CmdFillBuffer) X(CmdBindPipeline) X(CmdBindDescriptorSets)          \
-  X(CmdPushConstants) X(CmdDispatch) X(CmdDispatchIndirect) X(CmdResetQueryPool)                \
-  X(CmdWriteTimestamp2)                                                                         \
+  X(CmdPushConstants) X(CmdDispatch) X(CmdDispatchIndirect) X(CmdUpdateBuffer)                  \
+  X(CmdResetQueryPool) X(CmdWriteTimestamp2)                                                    \
   X(CmdBeginRendering) X(CmdEndRendering) X(CmdSetViewport) X(CmdSetScissor) X(CmdDraw)         \
   X(CmdClearColorImage)
 

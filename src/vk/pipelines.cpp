@@ -23,7 +23,9 @@
 #include "sky_table_comp_spv.h"
 #include "surface_cells_comp_spv.h"
 #include "surface_cover_comp_spv.h"
+#include "surface_ends_comp_spv.h"
 #include "surface_faces_comp_spv.h"
+#include "surface_list_comp_spv.h"
 #include "surface_map_comp_spv.h"
 #include "surface_shade_comp_spv.h"
 #include "surface_shell_comp_spv.h"
@@ -331,6 +333,8 @@ Pipelines::Compute Pipelines::computeOf(Pass pass) const {
       return {transport_view_comp_spv, transportLayout_};
     case Pass::VolumeDistance:
       return {volume_distance_comp_spv, distanceLayout_};
+    case Pass::SurfaceEnds:
+      return {surface_ends_comp_spv, surfaceLayout_};
     case Pass::SurfaceCover:
       return {surface_cover_comp_spv, surfaceLayout_};
     case Pass::SurfaceFaces:
@@ -341,6 +345,8 @@ Pipelines::Compute Pipelines::computeOf(Pass pass) const {
       return {surface_cells_comp_spv, surfaceLayout_};
     case Pass::SurfaceShell:
       return {surface_shell_comp_spv, surfaceLayout_};
+    case Pass::SurfaceList:
+      return {surface_list_comp_spv, surfaceLayout_};
     case Pass::SurfaceShade:
       return {surface_shade_comp_spv, surfaceLayout_};
     case Pass::Aerial:

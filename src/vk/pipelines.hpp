@@ -41,11 +41,13 @@ enum class Pass : uint32_t {
   AmbientView,
   Aerial,
   VolumeDistance,
+  SurfaceEnds,
   SurfaceCover,
   SurfaceFaces,
   SurfaceMap,
   SurfaceCells,
   SurfaceShell,
+  SurfaceList,
   SurfaceShade
 };
 
@@ -173,7 +175,8 @@ enum SurfaceBinding : uint32_t {
   BIND_SURFACE_NOISE = 23,
   BIND_SURFACE_CELLS = 24,
   BIND_SURFACE_SHELL = 25,
-  SURFACE_BINDING_COUNT = 26
+  BIND_SURFACE_LIST = 26,
+  SURFACE_BINDING_COUNT = 27
 };
 
 // Of any set.

@@ -14,7 +14,7 @@ layout(set = 0, binding = 0, std430) readonly buffer Input {
   SurfaceUniforms uniforms;
   float numbers[];
 };
-layout(set = 0, binding = 1, std430) buffer Output { SurfaceCover surfaceCover[]; };
+layout(set = 0, binding = 1, std430) buffer Output { uint surfaceWords[]; };
 
 vec3 surfaceVertex(uint i) {
   return vec3(numbers[3u * i], numbers[3u * i + 1u], numbers[3u * i + 2u]);
@@ -24,13 +24,17 @@ uint surfaceIndex(uint k) {
   return floatBitsToUint(numbers[3u * uint(VERTICES) + k]);
 }
 
-uint surfaceLimit(ivec2 pixel) {
-  return 0xffffffffu;
-}
-
 void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing, uint triangle);
 #include "pass/surface_cover.glsl"
 #include "pass/surface_cross.glsl"
+
+// In the word for a ray's end: how often it leaves less how often it enters.
+void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing,
+                  uint triangle) {
+  surfaceCount(at, crossing, surfaceStep(s, crossing.depth));
+  atomicAdd(surfaceWords[(at + 1u) * SURFACE_COVER_WORDS - 1u],
+            crossing.facing > 0.0f ? 0xffffffffu : 1u);
+}
 
 // Groups along x only: strips follow each other.
 void main() {

@@ -79,7 +79,8 @@ std::vector<SurfaceCover> onCpu(const ClosedMesh& mesh, const SurfaceUniforms& u
           c.back = std::max(c.back, static_cast<uint32_t>(step));
         }
         c.chord -= static_cast<int>(hit.facing) * step;
-        c.net -= static_cast<int>(hit.facing);
+        c.end -= static_cast<uint32_t>(
+            static_cast<int>(hit.facing));  // here what the kernel counts there
       }
     }
   }
@@ -130,7 +131,7 @@ TEST(SurfaceCover, DeviceCoversAsTheModelTextSays) {
       int covered = 0;
       int moved = 0;
       for (size_t i = 0; i < found.size(); ++i) {
-        ASSERT_EQ(found[i].net, c.net) << i;
+        ASSERT_EQ(static_cast<int>(found[i].end), c.net) << i;
         covered += found[i].back > 0 ? 1 : 0;
         // A pixel on a silhouette may fall to either side.
         moved += (found[i].back > 0) != (expected[i].back > 0) ? 1 : 0;
@@ -161,7 +162,7 @@ TEST(SurfaceCover, FromInsideEveryPixelLeavesOnce) {
     const std::vector<SurfaceCover> expected = onCpu(mesh, u);
     const std::vector<SurfaceCover> found = onDevice(runner, mesh, u);
     for (size_t i = 0; i < found.size(); ++i) {
-      ASSERT_EQ(found[i].net, 1) << i;
+      ASSERT_EQ(found[i].end, 1u) << i;
       ASSERT_EQ(found[i].front, 0u) << i;
       ASSERT_NEAR(found[i].chord, expected[i].chord, 64) << i;
     }

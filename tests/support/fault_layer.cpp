@@ -34,8 +34,8 @@ namespace {
 #define WELKIN_REST(X)                                                                          \
   X(UpdateDescriptorSets) X(CmdPipelineBarrier2) X(CmdCopyBufferToImage) X(CmdCopyBuffer)       \
   X(CmdCopyImageToBuffer) X(CmdFillBuffer) X(CmdBindPipeline) X(CmdBindDescriptorSets)          \
-  X(CmdPushConstants) X(CmdDispatch) X(CmdDispatchIndirect) X(CmdResetQueryPool)                \
-  X(CmdWriteTimestamp2)                                                                         \
+  X(CmdPushConstants) X(CmdDispatch) X(CmdDispatchIndirect) X(CmdUpdateBuffer)                  \
+  X(CmdResetQueryPool) X(CmdWriteTimestamp2)                                                    \
   X(CmdBeginRendering) X(CmdEndRendering) X(CmdSetViewport) X(CmdSetScissor) X(CmdDraw)         \
   X(CmdClearColorImage) X(GetBufferMemoryRequirements) X(GetImageMemoryRequirements)            \
   X(GetDeviceQueue)

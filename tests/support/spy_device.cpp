@@ -20,6 +20,7 @@ namespace {
   X(CmdCopyBufferToImage, copies)          \
   X(CmdCopyImageToBuffer, copies)          \
   X(CmdFillBuffer, copies)                 \
+  X(CmdUpdateBuffer, copies)               \
   X(CmdClearColorImage, copies)            \
   X(CreateBuffer, created)                 \
   X(CreateImage, created)                  \

@@ -18,7 +18,7 @@ struct VulkanCounts {
   uint64_t dispatches = 0;
   uint64_t draws = 0;
   uint64_t barriers = 0;          // vkCmdPipelineBarrier2
-  uint64_t copies = 0;            // vkCmdCopy*, vkCmdFillBuffer, vkCmdClear*
+  uint64_t copies = 0;            // vkCmdCopy*, vkCmdFillBuffer, vkCmdUpdateBuffer, vkCmdClear*
   uint64_t created = 0;           // vkCreate*
   uint64_t destroyed = 0;         // vkDestroy*
   uint64_t allocated = 0;         // vkAllocate*

@@ -29,7 +29,9 @@
 #include "sky_table_comp_spv.h"
 #include "surface_cells_comp_spv.h"
 #include "surface_cover_comp_spv.h"
+#include "surface_ends_comp_spv.h"
 #include "surface_faces_comp_spv.h"
+#include "surface_list_comp_spv.h"
 #include "surface_map_comp_spv.h"
 #include "surface_shade_comp_spv.h"
 #include "surface_shell_comp_spv.h"
@@ -196,7 +198,8 @@ INSTANTIATE_TEST_SUITE_P(
         Pass{"LightSlices", light_slices_comp_spv}, Pass{"ShadowMap", shadow_map_comp_spv},
         Pass{"ShadowResolve", shadow_resolve_comp_spv}, Pass{"SkyTable", sky_table_comp_spv},
         Pass{"SurfaceCells", surface_cells_comp_spv}, Pass{"SurfaceCover", surface_cover_comp_spv},
-        Pass{"SurfaceFaces", surface_faces_comp_spv}, Pass{"SurfaceMap", surface_map_comp_spv},
+        Pass{"SurfaceEnds", surface_ends_comp_spv}, Pass{"SurfaceFaces", surface_faces_comp_spv},
+        Pass{"SurfaceList", surface_list_comp_spv}, Pass{"SurfaceMap", surface_map_comp_spv},
         Pass{"SurfaceShade", surface_shade_comp_spv}, Pass{"SurfaceShell", surface_shell_comp_spv},
         Pass{"TransportCells", transport_cells_comp_spv},
         Pass{"TransportDepth", transport_depth_comp_spv},

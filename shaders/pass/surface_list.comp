@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// The pixels that a surface covers, as a list for its shading, and what the others are in the
+// picture. Drivers such as lavapipe take all lanes through the shading, whether their pixel asks for
+// it or not; a body covers a part of its rectangle, and the first one's rectangle is that of all.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "common.glsl"
+#include "../interface/slices.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 14) const bool DISTANCE = false;
+
+layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
+layout(set = 0, binding = 6, std430) buffer FrameState { vec4 frameState[]; };
+layout(set = 0, binding = 18, std430) buffer Distances { vec4 distances[]; };
+layout(push_constant) uniform Push { SliceConstants slice; };
+
+#include "surface_mesh.glsl"
+#include "surface_list.glsl"
+
+// An invocation takes a cell of so many pixels along both axes, so that it counts up once for all.
+const uint CELL = SURFACE_CELL;
+
+// What a pixel without the surface is.
+void pass(ivec2 pixel) {
+  uint index = uint(pixel.y) * uint(frame.viewport.x) + uint(pixel.x);
+  bool first = (slice.flags & SLICE_FIRST_VOLUME) != 0u;
+  if (first) {
+    frameState[index] = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  }
+  if (DISTANCE) {
+    distances[index] = first ? vec4(0.0f) : vec4(distances[index].xy, 0.0f, 0.0f);
+  }
+}
+
+ivec2 pixelOf(ivec2 corner, uint bit) {
+  return corner + ivec2(bit % CELL, bit / CELL);
+}
+
+void main() {
+  ivec2 corner = surface.shade.xy + ivec2(gl_GlobalInvocationID.xy * CELL);
+  uint covered = 0u;
+  uint others = 0u;
+  for (uint bit = 0u; bit < CELL * CELL; ++bit) {
+    ivec2 pixel = pixelOf(corner, bit);
+    if (all(lessThan(pixel, surface.shade.zw))) {
+      bool mine = surfaceCovers(pixel);
+      covered |= uint(mine) << bit;
+      others |= uint(!mine) << bit;
+    }
+  }
+  if (covered != 0u) {
+    uint at = takePlaces(uint(bitCount(covered)));
+    while (covered != 0u) {
+      ivec2 pixel = pixelOf(corner, uint(findLSB(covered)));
+      listed[at] = uint(pixel.x) | (uint(pixel.y) << 16u);
+      at += 1u;
+      covered &= covered - 1u;
+    }
+  }
+  while (others != 0u) {
+    pass(pixelOf(corner, uint(findLSB(others))));
+    others &= others - 1u;
+  }
+}
