@@ -147,7 +147,7 @@ enum {
   WLK_QUALITY_FLAG_LIGHT_SHADOWS = 1u << 2
 };
 
-/** In how many pixels the rays of volumes are marched. */
+/** In how many pixels the rays of volumes are marched, and surfaces lit in full. */
 enum {
   /** The level's choice: FULL on ULTRA, else HALF, as with all controls but LEVEL. */
   WLK_VOLUME_RESOLUTION_DEFAULT = 0,
@@ -156,7 +156,9 @@ enum {
   /** In every second one along both axes, in every fourth first where voxels are 2 wide.
    *  Those between take on what their neighbours see where that is smooth (to 0.64 / sliceCount)
    *  and ends at the same surface; others have their own.
-   *  Where all slabs' light is kept (see batchSize); never of surfaces, air, fog, froxels. */
+   *  Where all slabs' light is kept (see batchSize); never of air, fog, froxels. Of surfaces light
+   *  scattered more than once alone: in every second pixel along both axes, and between them where
+   *  those around are alike within 5 % and the pixel sees the cloud as far away as they do. */
   WLK_VOLUME_RESOLUTION_HALF = 2
 };
 

@@ -50,6 +50,15 @@ struct SurfaceCover {
   int chord;   // depths of leaving less those of entering
   uint end;    // ~ the depth at which rays end; 0 where they never do
 };
+// What the shading leaves in its place for light scattered more than once: a point on the pixel's
+// ray, and what that point's light counts in the picture.
+struct SurfaceSeen {
+  float lost;     // what detail takes of the metres between it and the light
+  float green;
+  float blue;
+  float range;    // from the eye, m; in place of the chord, which is above 0 as well
+  float red;
+};
 // Its words.
 const uint SURFACE_COVER_WORDS = 5u;
 const uint SURFACE_FRONT = 0u;
@@ -66,7 +75,15 @@ struct SurfaceFaces {
 const uint SURFACE_LANES = 64u;   // triangles of a workgroup
 const uint SURFACE_ROW = 32768u;  // workgroups along x
 const uint SURFACE_CELL = 4u;     // pixels along an edge that one lane lists
-const uint SURFACE_LIST_HEAD = 4u;
+// The buffer of a view's lists, in uints: for each list the groups of its dispatch along three axes
+// and how many pixels it has; four for each second pixel of the view along both axes, what these
+// see; a pixel x + 65536 y for each of the view, that of second pixels from the front, the others
+// from the back; and the list of pixels that need their own light, as long.
+const uint SURFACE_LIST_SECONDS = 0u;
+const uint SURFACE_LIST_OTHERS = 1u;
+const uint SURFACE_LIST_OWN = 2u;
+const uint SURFACE_LISTS = 3u;
+const uint SURFACE_LIST_HEAD = 4u * SURFACE_LISTS;
 const uint SURFACE_SMALL = 32u;   // pixels that one lane walks alone
 const uint SURFACE_TEAM = 8u;     // lanes that
 const uint SURFACE_MIDDLE = 1024u;  // walk so many together

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pixels that a surface covers, as a list for its shading, and what the others are in the
-// picture. Drivers such as lavapipe take all lanes through the shading, whether their pixel asks for
+// The pixels that a surface covers, as lists for its shading, and what the others are in the picture. Drivers such as lavapipe take all lanes through the shading, whether their pixel asks for
 // it or not; a body covers a part of its rectangle, and the first one's rectangle is that of all.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -18,8 +17,18 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 #include "surface_mesh.glsl"
 #include "surface_list.glsl"
 
+// Light scattered more than once in every second pixel along both axes first: they have a list of
+// their own.
+layout(constant_id = 13) const bool HALF = false;
 // An invocation takes a cell of so many pixels along both axes, so that it counts up once for all.
 const uint CELL = SURFACE_CELL;
+const uint SECONDS = HALF ? 0x0505u : 0xffffu;  // bits of a cell, row by row
+
+bool surfaceCovers(ivec2 pixel) {
+  bool inside = all(greaterThanEqual(pixel, surface.rect.xy)) &&
+                all(lessThan(pixel, surface.rect.zw));
+  return inside && surfaceCover[coverIndex(inside ? pixel : surface.rect.xy)].chord > 0;
+}
 
 // What a pixel without the surface is.
 void pass(ivec2 pixel) {
@@ -37,26 +46,34 @@ ivec2 pixelOf(ivec2 corner, uint bit) {
   return corner + ivec2(bit % CELL, bit / CELL);
 }
 
+void list(ivec2 corner, uint bits, uint to) {
+  if (bits != 0u) {
+    uint number = takePlaces(to, uint(bitCount(bits)));
+    while (bits != 0u) {
+      ivec2 pixel = pixelOf(corner, uint(findLSB(bits)));
+      listed[listAddress(to, number)] = uint(pixel.x) | (uint(pixel.y) << 16u);
+      number += 1u;
+      bits &= bits - 1u;
+    }
+  }
+}
+
 void main() {
-  ivec2 corner = surface.shade.xy + ivec2(gl_GlobalInvocationID.xy * CELL);
+  // Cells begin at even pixels.
+  ivec2 corner = surface.shade.xy / 2 * 2 + ivec2(gl_GlobalInvocationID.xy * CELL);
   uint covered = 0u;
   uint others = 0u;
   for (uint bit = 0u; bit < CELL * CELL; ++bit) {
     ivec2 pixel = pixelOf(corner, bit);
-    if (all(lessThan(pixel, surface.shade.zw))) {
+    if (all(greaterThanEqual(pixel, surface.shade.xy)) && all(lessThan(pixel, surface.shade.zw))) {
       bool mine = surfaceCovers(pixel);
       covered |= uint(mine) << bit;
       others |= uint(!mine) << bit;
     }
   }
-  if (covered != 0u) {
-    uint at = takePlaces(uint(bitCount(covered)));
-    while (covered != 0u) {
-      ivec2 pixel = pixelOf(corner, uint(findLSB(covered)));
-      listed[at] = uint(pixel.x) | (uint(pixel.y) << 16u);
-      at += 1u;
-      covered &= covered - 1u;
-    }
+  list(corner, covered & SECONDS, SURFACE_LIST_SECONDS);
+  if (HALF) {
+    list(corner, covered & ~SECONDS, SURFACE_LIST_OTHERS);
   }
   while (others != 0u) {
     pass(pixelOf(corner, uint(findLSB(others))));

@@ -1,24 +1,45 @@
 // SPDX-License-Identifier: MIT
-// The list of a surface's pixels, x + 65536 y, behind SURFACE_LIST_HEAD words: how many, and the
-// groups of the dispatch that goes through them. Before: surface_mesh.glsl, slices.glsl.
+// The lists of pixels that a surface covers, see SURFACE_LIST_HEAD. Before: surface_mesh.glsl,
+// slices.glsl, `frame`.
 layout(set = 0, binding = 26, std430) buffer List { uint listed[]; };
+// The same buffer.
+layout(set = 0, binding = 26, std430) buffer Seconds { vec4 secondLight[]; };
 
-bool surfaceCovers(ivec2 pixel) {
-  bool inside = all(greaterThanEqual(pixel, surface.rect.xy)) &&
-                all(lessThan(pixel, surface.rect.zw));
-  ivec2 at = inside ? pixel - surface.rect.xy : ivec2(0);
-  return inside && surfaceCover[at.y * (surface.rect.z - surface.rect.x) + at.x].chord > 0;
+uint coverIndex(ivec2 pixel) {
+  return uint(pixel.y - surface.rect.y) * uint(surface.rect.z - surface.rect.x) +
+         uint(pixel.x - surface.rect.x);
 }
 
-// Places for so many pixels: the index of the first.
-uint takePlaces(uint count) {
-  uint at = atomicAdd(listed[0], count);
-  atomicMax(listed[2], (at + count - 1u) / (64u * LIST_ROW) + 1u);
-  return SURFACE_LIST_HEAD + at;
+// In secondLight, of a pixel with even coordinates.
+uint secondAddress(ivec2 pixel) {
+  uint row = uint(frame.viewport.x) / 2u + 1u;
+  return SURFACE_LIST_HEAD / 4u + uint(pixel.y / 2) * row + uint(pixel.x / 2);
 }
 
-// Of the invocation with this number; x is below 0 where there is none.
-ivec2 listedPixel(uint number) {
-  uint both = listed[SURFACE_LIST_HEAD + min(number, max(listed[0], 1u) - 1u)];
-  return number < listed[0] ? ivec2(both & 0xffffu, both >> 16u) : ivec2(-1);
+// Where a list's pixel with this number is kept.
+uint listAddress(uint list, uint number) {
+  uvec2 view = uvec2(frame.viewport.xy);
+  uint first = SURFACE_LIST_HEAD + 4u * (view.x / 2u + 1u) * (view.y / 2u + 1u);
+  uint pixels = view.x * view.y;
+  uint forward = first + number + (list == SURFACE_LIST_OWN ? pixels : 0u);
+  return list == SURFACE_LIST_OTHERS ? first + pixels - 1u - number : forward;
+}
+
+// Places for so many pixels: the number of the first.
+uint takePlaces(uint list, uint count) {
+  uint at = atomicAdd(listed[4u * list + 3u], count);
+  atomicMax(listed[4u * list + 1u], (at + count - 1u) / (64u * LIST_ROW) + 1u);
+  return at;
+}
+
+// Of the invocation in a list's dispatch; x is below 0 where there is none.
+ivec2 listedPixel(uint list) {
+  uint number = (gl_WorkGroupID.y * LIST_ROW + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
+  uint both = listed[listAddress(list, number)];
+  return number < listed[4u * list + 3u] ? ivec2(both & 0xffffu, both >> 16u) : ivec2(-1);
+}
+
+void listOwn(ivec2 pixel) {
+  uint number = takePlaces(SURFACE_LIST_OWN, 1u);
+  listed[listAddress(SURFACE_LIST_OWN, number)] = uint(pixel.x) | (uint(pixel.y) << 16u);
 }

@@ -19,6 +19,8 @@ layout(constant_id = 7) const bool DETAIL = true;
 layout(constant_id = 8) const bool MULTIPLE_ENABLED = true;
 // Light of sky and ground.
 layout(constant_id = 9) const bool AMBIENT = false;
+// Pixels between second pixels take on their light.
+layout(constant_id = 13) const bool HALF = false;
 layout(constant_id = 14) const bool DISTANCE = false;
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
@@ -42,17 +44,20 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "surface_mesh.glsl"
 #include "surface_list.glsl"
+layout(set = 0, binding = 4, std430) buffer SeenPoints { SurfaceSeen seen[]; };
 #include "../interface/sky_table.glsl"
+#include "surface_spread.glsl"
 #include "ray.glsl"
 #include "fog_curve.glsl"
 #include "air_column.glsl"
 #include "sky_lookup.glsl"
 #include "air_nodes.glsl"
 #include "surface_light.glsl"
+#include "surface_place.glsl"
 #include "surface_shell.glsl"
 
 // Along a chord, of equal opacity.
-const int STRETCHES = 6;
+const int STRETCHES = 4;
 const float LONGEST_CHORD = 1.0e7f;  // m
 
 Inside insideOf(SurfaceCover cover, float metre, float first) {
@@ -90,78 +95,12 @@ ShellRay shellRayTo(ShellRay from, float t, vec3 direction) {
   return ray;
 }
 
-// Where a point lies in a light map: the first of four texels around it and the part of the way to
-// the next ones; and its depth along the light, m.
-struct MapPlace {
-  uint first;
-  vec2 part;
-  float depth;
-};
-
-MapPlace mapPlace(vec4 x, vec4 y, vec4 z, vec4 map, vec3 p) {
-  vec4 q = vec4(p, 1.0f);
-  vec2 texel = clamp(vec2(dot(x, q), dot(y, q)) * map.z - 0.5f, vec2(0.0f), vec2(map.z - 1.001f));
-  vec2 low = floor(texel);
-  MapPlace place;
-  place.first = uint(low.y) * uint(map.z) + uint(low.x);
-  place.part = texel - low;
-  place.depth = dot(z, q);
-  return place;
-}
-
-// Metres of cloud between the light and a point from what four texels show: between their middles
-// linear, where they show the cloud.
-float shadeOf(MapPlace place, vec4 a, vec4 b, vec4 c, vec4 d) {
-  vec4 covered = step(vec4(1.0e-20f), vec4(a.w, b.w, c.w, d.w));
-  vec2 u = vec2(1.0f - place.part.x, place.part.x);
-  vec4 weight = covered * vec4(u * (1.0f - place.part.y), u * place.part.y);
-  float weights = weight.x + weight.y + weight.z + weight.w;
-  vec4 mean = (weight.x * a + weight.y * b + weight.z * c + weight.w * d) / max(weights, 1.0e-20f);
-  float near = place.depth - mean.x;
-  float far = max(mean.w - (mean.z - place.depth), mean.y - mean.x);
-  float before = place.depth <= mean.y ? near : far;
-  return weights > 1.0e-6f ? clamp(before, 0.0f, mean.w) : 0.0f;
-}
-
-float shadeAt(vec3 p) {
-  MapPlace place = mapPlace(surface.lightX, surface.lightY, surface.lightZ, surface.map, p);
-  uint below = place.first + uint(surface.map.z);
-  return shadeOf(place, depths[place.first], depths[place.first + 1u], depths[below],
-                 depths[below + 1u]);
-}
-
 vec3 phaseAt(uint table, vec3 direction) {
   float x = phaseCoordinate(oneMinusCosine(direction, frame.lights[0].direction.xyz)) *
             float(CURVE_NODES - 1);
   uint i = min(uint(x), uint(CURVE_NODES - 2));
   uint first = table * uint(CURVE_NODES) + i;
   return mix(phase[first].xyz, phase[first + 1u].xyz, x - float(i));
-}
-
-// The way to the eye in a light map's frame, z towards the light.
-vec3 eyeInMap(vec4 x, vec4 y, vec4 z, vec4 map, vec3 direction) {
-  float scale = map.x * map.z;
-  return vec3(-dot(x.xyz, direction) * scale, -dot(y.xyz, direction) * scale,
-              dot(z.xyz, direction));
-}
-
-SurfaceMap mapOf(vec4 row) {
-  SurfaceMap map;
-  map.texel = row.x;
-  map.levels = row.y;
-  map.extinction = surface.optics.z;
-  return map;
-}
-
-// Light scattered at least twice: J at the point, per unit irradiance. `lost`: what detail takes of
-// the metres between it and the light.
-vec3 scatteredAt(vec3 p, vec3 direction, float lost) {
-  vec4 q = vec4(p, 1.0f);
-  vec3 toEye = eyeInMap(surface.lightX, surface.lightY, surface.lightZ, surface.map, direction);
-  return surfaceScattered(columns, faces, source, curves, mapOf(surface.map),
-                          vec2(dot(surface.lightX, q), dot(surface.lightY, q)),
-                          dot(surface.lightZ, q) - lost, max(shadeAt(p) - lost, 0.0f), toEye,
-                          surface.orders);
 }
 
 // The source that sky and ground make at a point: in the slab along the vertical that the footprint
@@ -208,16 +147,13 @@ vec3 ambientAt(vec3 p, vec3 direction, ShellRay shell, float distance_) {
 }
 
 void main() {
-  uint group = gl_WorkGroupID.y * LIST_ROW + gl_WorkGroupID.x;
-  ivec2 pixel = listedPixel(group * 64u + gl_LocalInvocationIndex);
+  ivec2 pixel = listedPixel(slice.firstSlab);
   if (pixel.x < 0) {
     return;
   }
-  SurfaceCover cover =
-      surfaceCover[uint(pixel.y - surface.rect.y) * uint(surface.rect.z - surface.rect.x) +
-                   uint(pixel.x - surface.rect.x)];
+  uint at = coverIndex(pixel);
+  SurfaceCover cover = surfaceCover[at];
   uint index = uint(pixel.y) * uint(frame.viewport.x) + uint(pixel.x);
-  vec4 state = vec4(0.0f, 0.0f, 0.0f, 1.0f);
   vec2 hidden = vec2(0.0f);
   vec3 direction = pixelDirection(frame, vec2(pixel));
   float along = 1.0f / max(dot(direction, surface.axis.xyz), 1.0e-4f);
@@ -299,30 +235,34 @@ void main() {
 #ifdef SHELL_NOISE_COMPUTED
   through = exp(-min(tau, EXP_CUT));
 #endif
+  bool first = (slice.flags & SLICE_FIRST_VOLUME) != 0u;
+  vec3 scattered = vec3(0.0f);
+  vec4 front = first ? vec4(0.0f, 0.0f, 0.0f, 1.0f) : frameState[index];
   if (LIGHT_ENABLED || AMBIENT) {
-    vec3 p = distance_ * direction;
     AirAt air = airAt(nodes, distance_);
-    vec3 light = vec3(0.0f);
     if (LIGHT_ENABLED) {
-      light += oneMinusExp(depth) * scatteredAt(p, direction, lost.y) * air.light;
+      vec3 weight = front.w * oneMinusExp(depth) * air.light * air.transmittance;
+      bool own = true;
+      if (HALF) {
+        vec4 between = lightBetween(pixel, distance_);
+        own = slice.firstSlab == SURFACE_LIST_SECONDS || between.w == 0.0f;
+        scattered = own ? vec3(0.0f) : between.xyz * weight;
+        if (own && slice.firstSlab != SURFACE_LIST_SECONDS) {
+          listOwn(pixel);
+        }
+      }
+      if (own) {
+        seen[at] = SurfaceSeen(lost.y, weight.y, weight.z, distance_, weight.x);
+      }
     }
     if (AMBIENT) {
-      light += (1.0f - through) * ambientAt(p, direction, shell, distance_);
+      sum += (1.0f - through) * ambientAt(distance_ * direction, direction, shell, distance_) *
+             air.transmittance;
     }
-    sum += light * air.transmittance;
   }
-  state = vec4(sum, through);
-  bool first = (slice.flags & SLICE_FIRST_VOLUME) != 0u;
   if (DISTANCE) {
-    vec4 kept = vec4(hidden, hidden);
-    if (!first) {
-      kept.xy = distances[index].xy + frameState[index].w * hidden;
-    }
-    distances[index] = kept;
+    vec2 before = first ? vec2(0.0f) : distances[index].xy;
+    distances[index] = vec4(before + front.w * hidden, hidden);
   }
-  if (!first) {
-    vec4 front = frameState[index];
-    state = vec4(front.xyz + front.w * state.xyz, front.w * state.w);
-  }
-  frameState[index] = state;
+  frameState[index] = vec4(front.xyz + front.w * sum + scattered, front.w * through);
 }

@@ -39,15 +39,19 @@ float shellDepthAt(vec3 place) {
 // From where a ray comes in, and before where it leaves for good if what is between is longer.
 const int SHELL_STEPS = 28;
 const int SHELL_STEPS_BACK = 6;
-const float SHELL_FINEST = 1.0f / 6.0f;  // steps in depths of the detail
+const float SHELL_FINEST = 0.25f;  // steps in depths of the detail
 const float SHELL_COARSEST = 1.0f / 3.0f;
+const float SHELL_CORE = 2.0f;  // in the core, which has no detail
 const float SHELL_BACK = 0.25f;
 // Optical depth behind which nothing counts.
 const float SHELL_HIDDEN = 8.0f;
 
-// Level of the noise that means over `metres` are read from.
-float shellLevel(float metres) {
-  return log2(max(metres * surface.detailScale.w, 1.0f));
+// Level of the noise that a ray reads, a whole one: between two the driver reads both. Steps in the
+// shell are alike, so that it is the same all over a surface but where pixels are wider. The finer
+// of two: steps among what they miss are nearer to the truth than what they would blur.
+float shellLevel(ShellRay ray) {
+  float metres = max(SHELL_COARSEST * surface.detail.x, ray.width);
+  return floor(log2(max(metres * surface.detailScale.w, 1.0f)));
 }
 
 float shellDensityAt(float depth, vec3 place, float level) {
@@ -61,17 +65,22 @@ ShellMarch shellMarch(Inside inside, ShellRay ray, float extinction, float seen)
   float shell = surface.detail.x;
   float base = clamp(inside.chord / float(SHELL_STEPS), SHELL_FINEST * shell,
                      SHELL_COARSEST * shell);
-  float level = shellLevel(max(base, ray.width));
+  float level = shellLevel(ray);
   ShellMarch march;
   march.filled = 0.0f;
   march.lost = 0.0f;
+  float core = max(base, SHELL_CORE * shell);
   float at = 0.0f;
   int steps = 0;
+  bool inCore = false;
   while (steps < SHELL_STEPS && at < inside.chord && extinction * march.filled < SHELL_HIDDEN) {
-    float width = min(base, inside.chord - at);
+    float width = min(inCore ? core : base, inside.chord - at);
     vec3 place = ray.origin + pointAt(inside, at + 0.5f * width) * ray.slope;
     float depth = shellDepthAt(place);
     float density = depth < 1.0f ? shellDensityAt(depth, place, level) : 1.0f;
+    // A wide step that comes upon the shell is taken again, in narrow ones.
+    width = inCore && depth < 1.0f ? 0.0f : width;
+    inCore = depth >= 1.0f;
     float filled = march.filled + density * width;
     if (filled < seen) {
       march.lost += (1.0f - density) * width * exp(-extinction * march.filled);
@@ -84,14 +93,14 @@ ShellMarch shellMarch(Inside inside, ShellRay ray, float extinction, float seen)
   }
   float rest = inside.chord - at;
   march.filled += rest;
-  if (rest > 0.0f && extinction * march.filled < SHELL_HIDDEN) {
-    float width = min(SHELL_BACK * shell, rest / float(SHELL_STEPS_BACK));
-    level = shellLevel(max(width, ray.width));
-    for (int i = 0; i < SHELL_STEPS_BACK; ++i) {
-      float depth = inside.chord - (float(i) + 0.5f) * width;
-      vec3 place = ray.origin + pointAt(inside, depth) * ray.slope;
-      march.filled -= (1.0f - shellDensityAt(shellDepthAt(place), place, level)) * width;
-    }
+  // Of a loop that no lane enters lavapipe runs one turn, of a branch all of it.
+  int back = rest > 0.0f && extinction * march.filled < SHELL_HIDDEN ? SHELL_STEPS_BACK : 0;
+  float width = min(SHELL_BACK * shell, rest / float(SHELL_STEPS_BACK));
+  while (back > 0) {
+    float depth = inside.chord - (float(back) - 0.5f) * width;
+    vec3 place = ray.origin + pointAt(inside, depth) * ray.slope;
+    march.filled -= (1.0f - shellDensityAt(shellDepthAt(place), place, level)) * width;
+    --back;
   }
   march.filled = max(march.filled, 0.0f);
   return march;
@@ -99,12 +108,12 @@ ShellMarch shellMarch(Inside inside, ShellRay ray, float extinction, float seen)
 
 // Metres that detail takes from the `shade` metres of cloud between a point and the light, near the
 // point; further away what it takes in the mean. ray: from the point to the light.
-const int SHELL_STEPS_SHADE = 5;
+const int SHELL_STEPS_SHADE = 4;
 const float SHELL_SHADE = 2.0f;  // depths of the detail that are looked at
 float shellShadeLost(ShellRay ray, float shade) {
   float shell = surface.detail.x;
   float width = min(shade, SHELL_SHADE * shell) / float(SHELL_STEPS_SHADE);
-  float level = shellLevel(max(width, ray.width));
+  float level = shellLevel(ray);
   float lost = 0.0f;
   for (int i = 0; i < SHELL_STEPS_SHADE; ++i) {
     vec3 place = ray.origin + (float(i) + 0.5f) * width * ray.slope;

@@ -40,6 +40,11 @@ void FrameCommands::dispatchIndirect(VkPipeline pipeline, VkBuffer counts, VkDev
   timestamp(statsIndex);
 }
 
+void FrameCommands::push(VkPipelineLayout layout, const interface_::SliceConstants& constants) {
+  vk.CmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
+                      &constants);
+}
+
 void FrameCommands::timestamp(uint32_t index) {
   if (!device.timestamps()) {
     return;

@@ -65,6 +65,8 @@ struct FrameCommands {
   // not counted.
   void dispatchIndirect(VkPipeline pipeline, VkBuffer counts, VkDeviceSize offset,
                         WlkPassStats& stats, uint32_t statsIndex);
+  // Those constants, without a command.
+  void push(VkPipelineLayout layout, const interface_::SliceConstants& constants);
   // Ends a command of pass `index`; without one, starts the clock.
   void timestamp(uint32_t index = ~0u);
 

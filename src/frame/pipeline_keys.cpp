@@ -71,9 +71,16 @@ vk::PipelineKey surfaceMapKey(bool fromLevel, bool detail) {
   return key;
 }
 
-vk::PipelineKey surfaceListKey(bool distance) {
+vk::PipelineKey surfaceListKey(bool distance, bool half) {
   vk::PipelineKey key{vk::Pass::SurfaceList, VK_FORMAT_UNDEFINED, {}};
+  key.constants[13] = half;
   key.constants[14] = distance;
+  return key;
+}
+
+vk::PipelineKey surfaceScatterKey(bool half) {
+  vk::PipelineKey key{vk::Pass::SurfaceScatter, VK_FORMAT_UNDEFINED, {}};
+  key.constants[13] = half;
   return key;
 }
 
@@ -83,6 +90,7 @@ vk::PipelineKey surfaceShadeKey(const SurfaceVariant& v, const SliceQuality& qua
   key.constants[7] = v.detail;
   key.constants[8] = quality.multipleSky;
   key.constants[9] = v.ambient;
+  key.constants[13] = quality.halfVolumes;
   key.constants[14] = v.distance;
   return key;
 }
@@ -143,6 +151,7 @@ static void prepareSurfaces(vk::Pipelines& pipelines, const ViewState& view,
                             const SliceQuality& quality, const SurfaceVariant& usual) {
   pipelines.prepare(surfaceFacesKey());
   pipelines.prepare(surfaceCellsKey());
+  pipelines.prepare(surfaceScatterKey(quality.halfVolumes));
   pipelines.prepare(surfaceMapKey(true, false));
   for (const bool either : {false, true}) {
     pipelines.prepare(surfaceEndsKey(either));
@@ -151,7 +160,7 @@ static void prepareSurfaces(vk::Pipelines& pipelines, const ViewState& view,
     pipelines.prepare(surfaceShellKey(either));
   }
   for (const bool distance : {false, view.volumeDistance}) {
-    pipelines.prepare(surfaceListKey(distance));
+    pipelines.prepare(surfaceListKey(distance, quality.halfVolumes));
     for (const bool light : {false, usual.light}) {
       for (const bool all : {false, light && usual.air > 0 && !usual.fog && quality.multipleSky}) {
         for (const bool ambient : {false, usual.ambient}) {

@@ -81,7 +81,8 @@ vk::PipelineKey surfaceFacesKey();
 vk::PipelineKey surfaceCellsKey();
 vk::PipelineKey surfaceShellKey(bool means);
 vk::PipelineKey surfaceMapKey(bool fromLevel, bool detail);
-vk::PipelineKey surfaceListKey(bool distance);
+vk::PipelineKey surfaceListKey(bool distance, bool half);
+vk::PipelineKey surfaceScatterKey(bool half);
 vk::PipelineKey surfaceShadeKey(const SurfaceVariant& variant, const SliceQuality& quality);
 vk::PipelineKey distanceKey();
 // What pixels between rays take on.

@@ -32,6 +32,10 @@ vk::PipelineKey shadeKeyOf(const FrameCommands& c, const ViewTargets& targets,
                          c.quality);
 }
 
+vk::PipelineKey listKeyOf(const FrameCommands& c, const ViewTargets& targets) {
+  return surfaceListKey(static_cast<bool>(targets.volumeDistance), c.quality.halfVolumes);
+}
+
 // Whether anything opaque, or the ground, may end rays.
 bool raysEnd(const FrameCommands& c, const ViewTargets& targets) {
   return static_cast<bool>(targets.depth) || c.view.plan.ground;
@@ -215,23 +219,53 @@ class SurfaceRecorder {
       }
       triangles(surfaceCoverKey(ends), uniforms, stats, index_ + 1);
     }
-    emptyList();
+    emptyLists();
     SliceConstants push{};
     push.flags = first ? interface_::SLICE_FIRST_VOLUME : 0;
     constexpr uint32_t CELL = interface_::SURFACE_CELL;
-    c_.dispatch(c_.find(surfaceListKey(static_cast<bool>(targets_.volumeDistance))),
-                c_.pipelines.surfaceLayout(), &push,
-                groups((shade.x1 - shade.x0 + CELL - 1) / CELL),
-                groups((shade.y1 - shade.y0 + CELL - 1) / CELL), stats, index_ + 1);
-    c_.barrier({COMPUTE, SHADER_ACCESS}, {COMPUTE | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
-                                          SHADER_ACCESS | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
-    c_.dispatchIndirect(c_.find(shadeKeyOf(c_, targets_, planned_)),
-                        resources().surfaceList.handle(), sizeof(uint32_t), stats, index_ + 1);
+    const uint32_t wide = shade.x1 - shade.x0 / 2 * 2;
+    const uint32_t high = shade.y1 - shade.y0 / 2 * 2;
+    c_.dispatch(c_.find(listKeyOf(c_, targets_)), c_.pipelines.surfaceLayout(), &push,
+                groups((wide + CELL - 1) / CELL), groups((high + CELL - 1) / CELL), stats,
+                index_ + 1);
+    orderLists();
+    const vk::PipelineKey shades = shadeKeyOf(c_, targets_, planned_);
+    const vk::PipelineKey scatters = surfaceScatterKey(c_.quality.halfVolumes);
+    overList(shades, interface_::SURFACE_LIST_SECONDS, push, stats);
+    if (planned_.lit) {  // light scattered more than once
+      orderLists();
+      overList(scatters, interface_::SURFACE_LIST_SECONDS, push, stats);
+    }
+    if (c_.quality.halfVolumes) {
+      orderLists();
+      overList(shades, interface_::SURFACE_LIST_OTHERS, push, stats);
+      if (planned_.lit) {
+        orderLists();
+        overList(scatters, interface_::SURFACE_LIST_OWN, push, stats);
+      }
+    }
   }
 
-  // Its head: no pixel, and the dispatch's groups.
-  void emptyList() {
-    const std::array<uint32_t, interface_::SURFACE_LIST_HEAD> head{0, interface_::LIST_ROW, 0, 1};
+  void overList(const vk::PipelineKey& key, uint32_t list, SliceConstants& push,
+                WlkPassStats& stats) {
+    push.firstSlab = list;
+    c_.push(c_.pipelines.surfaceLayout(), push);
+    c_.dispatchIndirect(c_.find(key), resources().surfaceList.handle(), 4 * sizeof(uint32_t) * list,
+                        stats, index_ + 1);
+  }
+
+  void orderLists() {
+    c_.barrier({COMPUTE, SHADER_ACCESS}, {COMPUTE | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                                          SHADER_ACCESS | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
+  }
+
+  // Their heads: no pixel.
+  void emptyLists() {
+    std::array<uint32_t, interface_::SURFACE_LIST_HEAD> head{};
+    for (uint32_t list = 0; list < interface_::SURFACE_LISTS; ++list) {
+      head[size_t{4} * list] = interface_::LIST_ROW;
+      head[size_t{4} * list + 2] = 1;
+    }
     c_.barrier({COMPUTE | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
                 SHADER_ACCESS | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT},
                {VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT});
@@ -351,7 +385,10 @@ void findSurfacePipelines(const FrameCommands& commands, const ViewTargets& targ
   }
   commands.find(surfaceEndsKey(static_cast<bool>(targets.depth)));
   commands.find(surfaceCoverKey(raysEnd(commands, targets)));
-  commands.find(surfaceListKey(static_cast<bool>(targets.volumeDistance)));
+  commands.find(listKeyOf(commands, targets));
+  if (planned.lit) {
+    commands.find(surfaceScatterKey(commands.quality.halfVolumes));
+  }
   commands.find(shadeKeyOf(commands, targets, planned));
   if (surface.light == nullptr || (planned.ambient && surface.up == nullptr)) {
     fail(WLK_ERROR_NOT_PREPARED, 0, "view", "call wlkPrepare before recording");
@@ -361,6 +398,14 @@ void findSurfacePipelines(const FrameCommands& commands, const ViewTargets& targ
 void recordSurface(FrameCommands& commands, const ViewTargets& targets,
                    const PlannedVolume& planned, bool first) {
   SurfaceRecorder(commands, targets, planned).run(first);
+}
+
+// shaders/interface/surface.glsl.
+static VkDeviceSize surfaceListBytes(const WlkViewInfo& info, const SliceQuality& quality) {
+  const VkDeviceSize pixels = VkDeviceSize{info.width} * info.height;
+  const VkDeviceSize seconds = VkDeviceSize{info.width / 2 + 1} * (info.height / 2 + 1);
+  return sizeof(uint32_t) *
+         (interface_::SURFACE_LIST_HEAD + 4 * seconds + pixels * (quality.halfVolumes ? 2 : 1));
 }
 
 void makeSurfaces(vk::Device& device, const WlkViewInfo& info, const SliceQuality& quality,
@@ -381,10 +426,8 @@ void makeSurfaces(vk::Device& device, const WlkViewInfo& info, const SliceQualit
   constexpr VkBufferUsageFlags CLEARED =
       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
   r.surfaceCover = vk::Buffer(device, bytes, CLEARED, false);
-  r.surfaceList = vk::Buffer(
-      device,
-      sizeof(uint32_t) * (interface_::SURFACE_LIST_HEAD + VkDeviceSize{info.width} * info.height),
-      CLEARED | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, false);
+  r.surfaceList = vk::Buffer(device, surfaceListBytes(info, quality),
+                             CLEARED | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, false);
   r.surfaceFaces = vk::Buffer(device, texels * sizeof(SurfaceFaces), CLEARED, false);
   r.surfaceLevels =
       vk::Buffer(device, VkDeviceSize{32} * surfaceMapTexels(size),

@@ -16,7 +16,7 @@ void recordSurface(FrameCommands& commands, const ViewTargets& targets,
                    const PlannedVolume& planned, bool first);
 
 // Of a surface in a frame, at most.
-constexpr uint32_t SURFACE_DISPATCHES = 19;
+constexpr uint32_t SURFACE_DISPATCHES = 22;
 // Pictures of a surface that have constants of their own: along the light, along the vertical, the
 // view's, and that of the cells of its detail.
 constexpr uint32_t SURFACE_PICTURES = 4;

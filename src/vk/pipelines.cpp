@@ -27,6 +27,7 @@
 #include "surface_faces_comp_spv.h"
 #include "surface_list_comp_spv.h"
 #include "surface_map_comp_spv.h"
+#include "surface_scatter_comp_spv.h"
 #include "surface_shade_comp_spv.h"
 #include "surface_shell_comp_spv.h"
 #include "transport_cells_comp_spv.h"
@@ -349,6 +350,8 @@ Pipelines::Compute Pipelines::computeOf(Pass pass) const {
       return {surface_list_comp_spv, surfaceLayout_};
     case Pass::SurfaceShade:
       return {surface_shade_comp_spv, surfaceLayout_};
+    case Pass::SurfaceScatter:
+      return {surface_scatter_comp_spv, surfaceLayout_};
     case Pass::Aerial:
       return {aerial_comp_spv, compositeLayout_};
     default:

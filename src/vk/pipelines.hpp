@@ -48,7 +48,8 @@ enum class Pass : uint32_t {
   SurfaceCells,
   SurfaceShell,
   SurfaceList,
-  SurfaceShade
+  SurfaceShade,
+  SurfaceScatter
 };
 
 constexpr uint32_t MAX_CONSTANTS = 16;

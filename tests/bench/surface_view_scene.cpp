@@ -133,7 +133,7 @@ void SurfaceWorld::show(const SurfaceView& view, const BodyMesh& mesh, const Sur
   auto quality = host::make<WlkQuality>();
   quality.level = method.level;
   quality.scattering = method.scattering;
-  quality.volumeResolution = WLK_VOLUME_RESOLUTION_FULL;  // as the surface's pixels
+  quality.volumeResolution = method.resolution;
   host::check(wlkSetQuality(context, shown_, &quality), "wlkSetQuality");
   host::CameraDesc desc;
   desc.position = vec(view.eye);

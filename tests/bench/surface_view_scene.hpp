@@ -26,6 +26,7 @@ struct SurfaceMethod {
   uint32_t voxels = 0;      // of a volume, along the longest edge
   uint32_t scattering = 0;  // WLK_SCATTERING_* of a volume
   uint32_t level = 2;       // WLK_QUALITY_*
+  uint32_t resolution = 0;  // WLK_VOLUME_RESOLUTION_*
 };
 
 /// One context with one body and one view.

@@ -33,6 +33,7 @@
 #include "surface_faces_comp_spv.h"
 #include "surface_list_comp_spv.h"
 #include "surface_map_comp_spv.h"
+#include "surface_scatter_comp_spv.h"
 #include "surface_shade_comp_spv.h"
 #include "surface_shell_comp_spv.h"
 #include "transport_cells_comp_spv.h"
@@ -200,6 +201,7 @@ INSTANTIATE_TEST_SUITE_P(
         Pass{"SurfaceCells", surface_cells_comp_spv}, Pass{"SurfaceCover", surface_cover_comp_spv},
         Pass{"SurfaceEnds", surface_ends_comp_spv}, Pass{"SurfaceFaces", surface_faces_comp_spv},
         Pass{"SurfaceList", surface_list_comp_spv}, Pass{"SurfaceMap", surface_map_comp_spv},
+        Pass{"SurfaceScatter", surface_scatter_comp_spv},
         Pass{"SurfaceShade", surface_shade_comp_spv}, Pass{"SurfaceShell", surface_shell_comp_spv},
         Pass{"TransportCells", transport_cells_comp_spv},
         Pass{"TransportDepth", transport_depth_comp_spv},
