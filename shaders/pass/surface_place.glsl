@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Points in a surface's light maps. Before: surface_mesh.glsl, surface_light.glsl, the map along the
-// light as `depths`.
+// Points in a surface's light maps. Before: surface_mesh.glsl, surface_light.glsl, the map along
+// the light as `depths`.
 
 // Where a point lies in a light map: the first of four texels around it and the part of the way to
 // the next ones; and its depth along the light, m.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Light scattered more than once of a pixel between second pixels (surface_scatter.comp): the mean of
-// those around where they are alike and the pixel's own point lies among theirs. Before:
+// Light scattered more than once of a pixel between second pixels (surface_scatter.comp): the mean
+// of those around where they are alike and the pixel's own point lies among theirs. Before:
 // surface_list.glsl.
 
-// Of what second pixels around have, in parts of the most: the mean then misses a step among them by
-// half of it.
+// Of what second pixels around have, in parts of the most: the mean then misses a step among them
+// by half of it.
 const float ALIKE = 0.05f;
 // The pixel's own point may lie so far from the mean of theirs: in free paths of the canonical
 // cloud, and in parts of what lies between theirs. At an edge in front of something it is either's.
