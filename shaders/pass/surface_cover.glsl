@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Triangles into the pixels of a SurfaceCover buffer: a workgroup has a triangle for each lane;
-// those that cover many pixels are shared by some lanes, or by all. Before: `surfaceVertex(i)` a
-// mesh position, `surfaceIndex(k)`, and `surfaceCross(uniforms, pixel, index in the buffer, crossing, triangle)`.
+// those that cover many pixels are shared by some lanes, or by all.
+//
+// Before: `surfaceVertex(i)` a mesh position, `surfaceIndex(k)`, and `surfaceCross(uniforms, pixel,
+// index in the buffer, crossing, triangle)`.
 
 // Beside the exact box of a triangle, for the rounding of its corners.
 const float SURFACE_MARGIN = 1.0f;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The pixels that a surface covers, as lists for its shading, and what the others are in the
 // picture. Drivers such as lavapipe take all lanes through the shading, whether their pixel asks
-// for it or not; a body covers a part of its rectangle, and the first one's rectangle is that of all.
+// for it or not, and a body covers a part of its rectangle; the first one's is that of all.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
