@@ -83,6 +83,8 @@ const uint SURFACE_LIST_SECONDS = 0u;
 const uint SURFACE_LIST_OTHERS = 1u;
 const uint SURFACE_LIST_OWN = 2u;
 const uint SURFACE_LISTS = 3u;
+// Groups of a list's dispatch along x: with 65535 along y, 268 million pixels.
+const uint SURFACE_LIST_ROW = 64u;
 const uint SURFACE_LIST_HEAD = 4u * SURFACE_LISTS;
 const uint SURFACE_SMALL = 32u;   // pixels that one lane walks alone
 const uint SURFACE_TEAM = 8u;     // lanes that

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The lists of pixels that a surface covers, see SURFACE_LIST_HEAD. Before: surface_mesh.glsl,
-// slices.glsl, `frame`.
+// `frame`.
 layout(set = 0, binding = 26, std430) buffer List { uint listed[]; };
 // The same buffer.
 layout(set = 0, binding = 26, std430) buffer Seconds { vec4 secondLight[]; };
@@ -28,15 +28,17 @@ uint listAddress(uint list, uint number) {
 // Places for so many pixels: the number of the first.
 uint takePlaces(uint list, uint count) {
   uint at = atomicAdd(listed[4u * list + 3u], count);
-  atomicMax(listed[4u * list + 1u], (at + count - 1u) / (64u * LIST_ROW) + 1u);
+  atomicMax(listed[4u * list + 1u], (at + count - 1u) / (64u * SURFACE_LIST_ROW) + 1u);
   return at;
 }
 
 // Of the invocation in a list's dispatch; x is below 0 where there is none.
 ivec2 listedPixel(uint list) {
-  uint number = (gl_WorkGroupID.y * LIST_ROW + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
-  uint both = listed[listAddress(list, number)];
-  return number < listed[4u * list + 3u] ? ivec2(both & 0xffffu, both >> 16u) : ivec2(-1);
+  uint row = gl_WorkGroupID.y * SURFACE_LIST_ROW;
+  uint number = (row + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
+  uint count = listed[4u * list + 3u];  // never 0 where an invocation is
+  uint both = listed[listAddress(list, min(number, count - 1u))];
+  return number < count ? ivec2(both & 0xffffu, both >> 16u) : ivec2(-1);
 }
 
 void listOwn(ivec2 pixel) {

@@ -44,7 +44,6 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "surface_mesh.glsl"
 #include "surface_list.glsl"
-layout(set = 0, binding = 4, std430) buffer SeenPoints { SurfaceSeen seen[]; };
 #include "../interface/sky_table.glsl"
 #include "surface_spread.glsl"
 #include "ray.glsl"
@@ -73,6 +72,22 @@ Inside insideOf(SurfaceCover cover, float metre, float first) {
   inside.back = max(inside.back, inside.front);
   inside.leave = clamp(inside.leave, inside.front, inside.back);
   return inside;
+}
+
+// By one variable, as the record is to take the cover's place.
+SurfaceCover coverAt(uint index) {
+  uint at = index * SURFACE_COVER_WORDS;
+  return SurfaceCover(surfaceWords[at], surfaceWords[at + 1u], surfaceWords[at + 2u],
+                      int(surfaceWords[at + 3u]), surfaceWords[at + 4u]);
+}
+
+void leave(uint index, SurfaceSeen seen) {
+  uint at = index * SURFACE_COVER_WORDS;
+  surfaceWords[at] = floatBitsToUint(seen.lost);
+  surfaceWords[at + 1u] = floatBitsToUint(seen.green);
+  surfaceWords[at + 2u] = floatBitsToUint(seen.blue);
+  surfaceWords[at + 3u] = floatBitsToUint(seen.range);
+  surfaceWords[at + 4u] = floatBitsToUint(seen.red);
 }
 
 // For a surface's detail.
@@ -152,7 +167,7 @@ void main() {
     return;
   }
   uint at = coverIndex(pixel);
-  SurfaceCover cover = surfaceCover[at];
+  SurfaceCover cover = coverAt(at);
   uint index = uint(pixel.y) * uint(frame.viewport.x) + uint(pixel.x);
   vec2 hidden = vec2(0.0f);
   vec3 direction = pixelDirection(frame, vec2(pixel));
@@ -245,14 +260,16 @@ void main() {
       bool own = true;
       if (HALF) {
         vec4 between = lightBetween(pixel, distance_);
-        own = slice.firstSlab == SURFACE_LIST_SECONDS || between.w == 0.0f;
+        // What nothing is seen of needs no light, but where others may take it on.
+        bool unseen = max(max(weight.x, weight.y), weight.z) == 0.0f;
+        own = slice.firstSlab == SURFACE_LIST_SECONDS || (between.w == 0.0f && !unseen);
         scattered = own ? vec3(0.0f) : between.xyz * weight;
         if (own && slice.firstSlab != SURFACE_LIST_SECONDS) {
           listOwn(pixel);
         }
       }
       if (own) {
-        seen[at] = SurfaceSeen(lost.y, weight.y, weight.z, distance_, weight.x);
+        leave(at, SurfaceSeen(lost.y, weight.y, weight.z, distance_, weight.x));
       }
     }
     if (AMBIENT) {

@@ -41,17 +41,17 @@ const int SHELL_STEPS = 28;
 const int SHELL_STEPS_BACK = 6;
 const float SHELL_FINEST = 0.25f;  // steps in depths of the detail
 const float SHELL_COARSEST = 1.0f / 3.0f;
-const float SHELL_CORE = 2.0f;  // in the core, which has no detail
+const float SHELL_CORE = 1.0f;  // where the middle of the step is in the core, without detail
 const float SHELL_BACK = 0.25f;
 // Optical depth behind which nothing counts.
 const float SHELL_HIDDEN = 8.0f;
 
-// Level of the noise that a ray reads, a whole one: between two the driver reads both. Steps in the
-// shell are alike, so that it is the same all over a surface but where pixels are wider. The finer
-// of two: steps among what they miss are nearer to the truth than what they would blur.
+// Level of the noise that a ray reads: a whole one, as between two the driver reads both, and the
+// same for all steps. The finer of two: steps among what they miss are nearer to the truth than what
+// they would blur. Wider pixels have means as wide as they are.
 float shellLevel(ShellRay ray) {
-  float metres = max(SHELL_COARSEST * surface.detail.x, ray.width);
-  return floor(log2(max(metres * surface.detailScale.w, 1.0f)));
+  float steps = floor(log2(max(SHELL_COARSEST * surface.detail.x * surface.detailScale.w, 1.0f)));
+  return max(steps, log2(max(ray.width * surface.detailScale.w, 1.0f)));
 }
 
 float shellDensityAt(float depth, vec3 place, float level) {
@@ -70,17 +70,22 @@ ShellMarch shellMarch(Inside inside, ShellRay ray, float extinction, float seen)
   march.filled = 0.0f;
   march.lost = 0.0f;
   float core = max(base, SHELL_CORE * shell);
+  float gap = inside.leave - inside.front;  // wide steps end there
   float at = 0.0f;
+  float narrow = 0.0f;  // up to there
   int steps = 0;
   bool inCore = false;
   while (steps < SHELL_STEPS && at < inside.chord && extinction * march.filled < SHELL_HIDDEN) {
-    float width = min(inCore ? core : base, inside.chord - at);
+    float wide = at < gap ? clamp(gap - at, base, core) : core;
+    float width = min(inCore ? wide : base, inside.chord - at);
     vec3 place = ray.origin + pointAt(inside, at + 0.5f * width) * ray.slope;
     float depth = shellDepthAt(place);
     float density = depth < 1.0f ? shellDensityAt(depth, place, level) : 1.0f;
     // A wide step that comes upon the shell is taken again, in narrow ones.
-    width = inCore && depth < 1.0f ? 0.0f : width;
-    inCore = depth >= 1.0f;
+    bool again = inCore && depth < 1.0f;
+    narrow = again ? at + width : narrow;
+    width = again ? 0.0f : width;
+    inCore = depth >= 1.0f && at + width >= narrow;
     float filled = march.filled + density * width;
     if (filled < seen) {
       march.lost += (1.0f - density) * width * exp(-extinction * march.filled);

@@ -263,7 +263,7 @@ class SurfaceRecorder {
   void emptyLists() {
     std::array<uint32_t, interface_::SURFACE_LIST_HEAD> head{};
     for (uint32_t list = 0; list < interface_::SURFACE_LISTS; ++list) {
-      head[size_t{4} * list] = interface_::LIST_ROW;
+      head[size_t{4} * list] = interface_::SURFACE_LIST_ROW;
       head[size_t{4} * list + 2] = 1;
     }
     c_.barrier({COMPUTE | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,

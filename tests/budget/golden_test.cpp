@@ -235,6 +235,7 @@ TEST_P(GoldenBudget, IsExactAtEveryLevel) {
     const auto volumes = build(scene);
     check(wlkPrepare(scene.context));
     const VulkanCounts prepared = SpyDevice::counts();
+    EXPECT_EQ(prepared.descriptorsShort, 0u) << key;
     const VulkanCounts first = sum(scene.renderFrame());
     const WlkFrameStats stats = scene.stats();
     settle(key + "prepare", figuresOf(prepared, 0, 0));

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "support/descriptor_ledger.hpp"
 #include "support/headless_scene.hpp"
 
 namespace welkin::test {
@@ -27,11 +28,9 @@ namespace {
   X(CreateImageView, created)              \
   X(CreateSampler, created)                \
   X(CreateShaderModule, created)           \
-  X(CreateDescriptorSetLayout, created)    \
   X(CreatePipelineLayout, created)         \
   X(CreateComputePipelines, created)       \
   X(CreateGraphicsPipelines, created)      \
-  X(CreateDescriptorPool, created)         \
   X(CreateQueryPool, created)              \
   X(DestroyBuffer, destroyed)              \
   X(DestroyImage, destroyed)               \
@@ -44,7 +43,6 @@ namespace {
   X(DestroyDescriptorPool, destroyed)      \
   X(DestroyQueryPool, destroyed)           \
   X(AllocateMemory, allocated)             \
-  X(AllocateDescriptorSets, allocated)     \
   X(CmdWriteTimestamp2, timestamps)
 
 enum Spied {
@@ -53,12 +51,16 @@ enum Spied {
 #undef WELKIN_INDEX
       SPIED_UpdateDescriptorSets,
   SPIED_GetQueryPoolResults,
+  SPIED_CreateDescriptorSetLayout,
+  SPIED_CreateDescriptorPool,
+  SPIED_AllocateDescriptorSets,
   SPIED_COUNT
 };
 
 // C function pointers carry no state: what they count in is the process's.
 struct Spy {
   VulkanCounts counts;
+  DescriptorLedger ledger;
   std::set<std::string> asked;
   PFN_vkGetDeviceProcAddr deviceProc = nullptr;
   std::array<PFN_vkVoidFunction, SPIED_COUNT> real{};
@@ -86,6 +88,36 @@ VKAPI_ATTR void VKAPI_CALL updateDescriptorSets(VkDevice device, uint32_t writeC
   spied.counts.descriptorWrites += writeCount + copyCount;
   reinterpret_cast<PFN_vkUpdateDescriptorSets>(spied.real[SPIED_UpdateDescriptorSets])(
       device, writeCount, writes, copyCount, copies);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL
+createDescriptorSetLayout(VkDevice device, const VkDescriptorSetLayoutCreateInfo* info,
+                          const VkAllocationCallbacks* callbacks, VkDescriptorSetLayout* layout) {
+  ++spied.counts.created;
+  const VkResult result = reinterpret_cast<PFN_vkCreateDescriptorSetLayout>(
+      spied.real[SPIED_CreateDescriptorSetLayout])(device, info, callbacks, layout);
+  spied.ledger.made(*layout, *info);
+  return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createDescriptorPool(VkDevice device,
+                                                    const VkDescriptorPoolCreateInfo* info,
+                                                    const VkAllocationCallbacks* callbacks,
+                                                    VkDescriptorPool* pool) {
+  ++spied.counts.created;
+  const VkResult result = reinterpret_cast<PFN_vkCreateDescriptorPool>(
+      spied.real[SPIED_CreateDescriptorPool])(device, info, callbacks, pool);
+  spied.ledger.made(*pool, *info);
+  return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL allocateDescriptorSets(VkDevice device,
+                                                      const VkDescriptorSetAllocateInfo* info,
+                                                      VkDescriptorSet* sets) {
+  ++spied.counts.allocated;
+  spied.counts.descriptorsShort += spied.ledger.allocated(*info);
+  return reinterpret_cast<PFN_vkAllocateDescriptorSets>(spied.real[SPIED_AllocateDescriptorSets])(
+      device, info, sets);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL getQueryPoolResults(VkDevice device, VkQueryPool pool,
@@ -124,6 +156,10 @@ const std::array<Replacement, SPIED_COUNT>& replacements() {
 #undef WELKIN_ENTRY
           {"vkUpdateDescriptorSets", reinterpret_cast<PFN_vkVoidFunction>(&updateDescriptorSets)},
       {"vkGetQueryPoolResults", reinterpret_cast<PFN_vkVoidFunction>(&getQueryPoolResults)},
+      {"vkCreateDescriptorSetLayout",
+       reinterpret_cast<PFN_vkVoidFunction>(&createDescriptorSetLayout)},
+      {"vkCreateDescriptorPool", reinterpret_cast<PFN_vkVoidFunction>(&createDescriptorPool)},
+      {"vkAllocateDescriptorSets", reinterpret_cast<PFN_vkVoidFunction>(&allocateDescriptorSets)},
   }};
   return table;
 }

@@ -24,6 +24,7 @@ struct VulkanCounts {
   uint64_t allocated = 0;         // vkAllocate*
   uint64_t descriptorWrites = 0;  // writes and copies of vkUpdateDescriptorSets
   uint64_t timestamps = 0;        // vkCmdWriteTimestamp2
+  uint64_t descriptorsShort = 0;  // descriptors and sets beyond what their pools were made for
 };
 
 class SpyDevice {
