@@ -47,8 +47,8 @@ const float SHELL_BACK = 0.25f;
 const float SHELL_HIDDEN = 8.0f;
 
 // Level of the noise that a ray reads: a whole one, as between two the driver reads both, and the
-// same for all steps. The finer of two: steps among what they miss are nearer to the truth than what
-// they would blur. Wider pixels have means as wide as they are.
+// same for all steps. The finer of two: steps among what they miss are nearer to the truth than
+// what they would blur. Wider pixels have means as wide as they are.
 float shellLevel(ShellRay ray) {
   float steps = floor(log2(max(SHELL_COARSEST * surface.detail.x * surface.detailScale.w, 1.0f)));
   return max(steps, log2(max(ray.width * surface.detailScale.w, 1.0f)));

@@ -23,7 +23,8 @@ void look(inout Around around, ivec2 pixel) {
                 all(lessThan(pixel, surface.rect.zw));
   ivec2 at = inside ? pixel : surface.rect.xy;
   vec4 light = secondLight[secondAddress(at)];
-  around.there = around.there && inside && int(surfaceWords[coverIndex(at) * SURFACE_COVER_WORDS + SURFACE_CHORD]) > 0;
+  uint chord = surfaceWords[coverIndex(at) * SURFACE_COVER_WORDS + SURFACE_CHORD];
+  around.there = around.there && inside && int(chord) > 0;
   around.sum += light;
   around.least = min(around.least, light);
   around.most = max(around.most, light);
