@@ -75,16 +75,15 @@ struct SurfaceFaces {
 const uint SURFACE_LANES = 64u;   // triangles of a workgroup
 const uint SURFACE_ROW = 32768u;  // workgroups along x
 const uint SURFACE_CELL = 4u;     // pixels along an edge that one lane lists
-// The buffer of a view's lists, in uints: for each list the groups of its dispatch along three axes
-// and how many pixels it has; four for each second pixel of the view along both axes, what these
-// see; a pixel x + 65536 y for each of the view, that of second pixels from the front, the others
-// from the back; and the list of pixels that need their own light, as long.
+// The buffer of a view's lists, in uints: for each list the groups of its dispatch along three
+// axes, the first of which serves any length, and how many pixels it has; four for each second
+// pixel of the view along both axes, what these see; a pixel x + 65536 y for each of the view, that
+// of second pixels from the front, the others from the back; and the list of pixels that need
+// their own light, as long.
 const uint SURFACE_LIST_SECONDS = 0u;
 const uint SURFACE_LIST_OTHERS = 1u;
 const uint SURFACE_LIST_OWN = 2u;
 const uint SURFACE_LISTS = 3u;
-// Groups of a list's dispatch along x: with 65535 along y, 268 million pixels.
-const uint SURFACE_LIST_ROW = 64u;
 const uint SURFACE_LIST_HEAD = 4u * SURFACE_LISTS;
 const uint SURFACE_SMALL = 32u;   // pixels that one lane walks alone
 const uint SURFACE_TEAM = 8u;     // lanes that

@@ -28,13 +28,13 @@ uint listAddress(uint list, uint number) {
 // Places for so many pixels: the number of the first.
 uint takePlaces(uint list, uint count) {
   uint at = atomicAdd(listed[4u * list + 3u], count);
-  atomicMax(listed[4u * list + 1u], (at + count - 1u) / (64u * SURFACE_LIST_ROW) + 1u);
+  atomicMax(listed[4u * list + 1u], (at + count - 1u) / (64u * listed[4u * list]) + 1u);
   return at;
 }
 
 // Of the invocation in a list's dispatch; x is below 0 where there is none.
 ivec2 listedPixel(uint list) {
-  uint row = gl_WorkGroupID.y * SURFACE_LIST_ROW;
+  uint row = gl_WorkGroupID.y * listed[4u * list];
   uint number = (row + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
   uint count = listed[4u * list + 3u];  // never 0 where an invocation is
   uint both = listed[listAddress(list, min(number, count - 1u))];

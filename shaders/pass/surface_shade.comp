@@ -263,7 +263,7 @@ void main() {
         // What nothing is seen of needs no light, but where others may take it on.
         bool unseen = max(max(weight.x, weight.y), weight.z) == 0.0f;
         own = slice.firstSlab == SURFACE_LIST_SECONDS || (between.w == 0.0f && !unseen);
-        scattered = own ? vec3(0.0f) : between.xyz * weight;
+        scattered = between.w == 0.0f || own ? vec3(0.0f) : between.xyz * weight;
         if (own && slice.firstSlab != SURFACE_LIST_SECONDS) {
           listOwn(pixel);
         }

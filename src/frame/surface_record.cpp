@@ -259,11 +259,14 @@ class SurfaceRecorder {
                                           SHADER_ACCESS | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
   }
 
-  // Their heads: no pixel.
+  // Their heads: no pixel, and as few groups along x as 65535 along y, which any device has, allow.
   void emptyLists() {
+    constexpr uint32_t ROWS = 64 * 65535;
+    const WlkViewInfo& info = c_.view.info;
+    const auto across = static_cast<uint32_t>((uint64_t{info.width} * info.height) / ROWS + 1);
     std::array<uint32_t, interface_::SURFACE_LIST_HEAD> head{};
     for (uint32_t list = 0; list < interface_::SURFACE_LISTS; ++list) {
-      head[size_t{4} * list] = interface_::SURFACE_LIST_ROW;
+      head[size_t{4} * list] = across;
       head[size_t{4} * list + 2] = 1;
     }
     c_.barrier({COMPUTE | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,

@@ -96,7 +96,9 @@ createDescriptorSetLayout(VkDevice device, const VkDescriptorSetLayoutCreateInfo
   ++spied.counts.created;
   const VkResult result = reinterpret_cast<PFN_vkCreateDescriptorSetLayout>(
       spied.real[SPIED_CreateDescriptorSetLayout])(device, info, callbacks, layout);
-  spied.ledger.made(*layout, *info);
+  if (result == VK_SUCCESS) {
+    spied.ledger.made(*layout, *info);
+  }
   return result;
 }
 
@@ -107,7 +109,9 @@ VKAPI_ATTR VkResult VKAPI_CALL createDescriptorPool(VkDevice device,
   ++spied.counts.created;
   const VkResult result = reinterpret_cast<PFN_vkCreateDescriptorPool>(
       spied.real[SPIED_CreateDescriptorPool])(device, info, callbacks, pool);
-  spied.ledger.made(*pool, *info);
+  if (result == VK_SUCCESS) {
+    spied.ledger.made(*pool, *info);
+  }
   return result;
 }
 
