@@ -62,8 +62,8 @@ class Draft {
 VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t volumes,
                           uint32_t surfaces, uint32_t lights, bool froxels) {
   // Of a surface's set: what is neither uniform nor image is a storage buffer.
-  constexpr uint32_t IMAGES = 12;
-  constexpr uint32_t BUFFERS = vk::SURFACE_BINDING_COUNT - 2 - IMAGES;
+  constexpr uint32_t SURFACE_IMAGES = 12;
+  constexpr uint32_t SURFACE_BUFFERS = vk::SURFACE_BINDING_COUNT - 2 - SURFACE_IMAGES;
   const uint32_t more = froxels ? 1 : 0;
   const uint32_t spread = (lights - 1) * volumes;  // sets of further grids
   const uint32_t sets =
@@ -74,12 +74,12 @@ VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t vol
                                     2 * SURFACE_PICTURES * surfaces + 3 + more)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                            slots * ((10 + 4 * more) * volumes + 4 * spread +
-                                    BUFFERS * SURFACE_PICTURES * surfaces + 4 + 3 * more)},
+                                    SURFACE_BUFFERS * SURFACE_PICTURES * surfaces + 4 + 3 * more)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
                            slots * ((3 + more) * volumes + spread + 5 + 2 * more)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                            slots * ((24 + 14 * more) * volumes + 5 * spread +
-                                    IMAGES * SURFACE_PICTURES * surfaces + 10 + 8 * more)}};
+                                    SURFACE_IMAGES * SURFACE_PICTURES * surfaces + 10 + 8 * more)}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.maxSets = sets;
   info.poolSizeCount = static_cast<uint32_t>(sizes.size());
