@@ -73,8 +73,8 @@ typedef struct WlkPassStats {
   /** The volume or the cloud surface that it is about; {0} where it is about none. */
   WlkVolume volume;
   WlkSurface surface;
-  /** Shader invocations (threads) recorded; not those of pixels that shaders put on a list, whose
-   *  number the host does not know. */
+  /** Shader invocations (threads) recorded; not those of pixels and tiles that shaders put on a
+   *  list, whose number the host does not know. */
   uint64_t invocations;
   /** GPU time of the newest finished frame, ns; 0 before one finished, and always on a queue
    *  without timestamps. */

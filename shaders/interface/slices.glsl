@@ -47,14 +47,29 @@ const uint RAYS_OF_GRID = 2u;
 const uint RAYS_OF_LIST = 3u;
 const uint SPREAD_TO_SECONDS = 0u;
 const uint SPREAD_TO_PIXELS = 1u;
-// The buffer of every second pixel and of the list. In uints: for the list of second pixels and for
-// that of pixels the dispatch's groups along three axes and the list's length; then, 8 for each
-// second pixel of the view, row by row with two more than half of its pixels in each, radiance and
+// The buffer of every second pixel and of the lists. In uints: for the lists of second pixels, of
+// pixels, of tiles in which something may be seen and of the others the dispatch's groups along
+// three axes and the list's length, then the draw of rows of tiles; then, 8 for each second pixel
+// of the view, row by row with two more than half of its pixels in each, radiance and
 // transmittance, where the ray ends (m) and what the volumes' distance needs (without depth and
-// distance only the first 4); then the list that is in use, x + 65536 y.
+// distance only the first 4); then the list of second pixels or pixels in use, x + 65536 y. Behind
+// the longest of those, of each tile: the number of the last march that saw anything in it; the
+// list of tiles, x + 65536 y, that of the others from its end on; rows of tiles, x + 2^12 y +
+// 2^24 (length - 1).
 const uint LIST_SIZE = 4u;
-const uint LIST_HEAD = 8u;
+const uint TILE_LIST = 8u;
+const uint CLEAR_LIST = 12u;
+const uint TILE_DRAW = 16u;
+const uint LIST_HEAD = 20u;
 const uint SECOND_SIZE = 8u;
+const uint LIST_MOST = 3u;     // entries for each second pixel
+const uint TILE_SECONDS = 8u;  // second pixels along a tile's edge
+const uint TILE_WORDS = 3u;    // for each tile
+const uint TILE_PARTS = 8u;    // invocations for each listed tile
+const uint ROW_TILES = 8u;     // of a row that is drawn, at most
+const uint ROW_Y = 1u << 12u;
+const uint ROW_LENGTH = 1u << 24u;
+const uint ROW_CORNERS = 6u;   // of its two triangles
 const uint LIST_ROW = 16u;  // groups of the list's dispatch along x
 const uint SPREAD_COLUMNS = 2u;
 const uint SPREAD_CELLS = 4u;  // cells of four pixels, one below the other, of an invocation
@@ -63,3 +78,4 @@ const uint SLICE_FIRST_BATCH = 1u;
 const uint SLICE_LAST_BATCH = 2u;
 const uint SLICE_FIRST_VOLUME = 4u;
 const uint SLICE_SECONDS = 8u;  // the grid or the list is of every second pixel
+const uint SLICE_MARCH = 256u;  // times the march's number, from 1

@@ -52,7 +52,6 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 const bool FROXELS = RAYS == RAYS_OF_FROXELS;
 const bool GRID = RAYS == RAYS_OF_GRID;
 const bool LISTED = RAYS == RAYS_OF_LIST;
-#include "second_pixels.glsl"
 
 #include "../interface/sky_table.glsl"
 #include "ray.glsl"
@@ -60,6 +59,8 @@ const bool LISTED = RAYS == RAYS_OF_LIST;
 #include "fog_curve.glsl"
 #include "fields.glsl"
 #include "leaps.glsl"
+const bool TILES = LEAPS;
+#include "second_pixels.glsl"
 #include "air_column.glsl"
 #include "sky_lookup.glsl"
 #include "air_nodes.glsl"
@@ -149,12 +150,16 @@ void main() {
     uvec2 number = (everySecond ? firstSecond() : firstFourth()) + offset;
     uvec2 last = everySecond ? lastSecond() : lastFourth();
     if (offset == uvec2(0u)) {
-      for (uint list = 0u; list < LIST_HEAD; list += LIST_SIZE) {
+      for (uint list = 0u; list < TILE_DRAW; list += LIST_SIZE) {
         seconds[list] = LIST_ROW;
         seconds[list + 1u] = 0u;
         seconds[list + 2u] = 1u;
         seconds[list + 3u] = 0u;
       }
+      seconds[TILE_DRAW] = 0u;
+      seconds[TILE_DRAW + 1u] = 1u;
+      seconds[TILE_DRAW + 2u] = 0u;
+      seconds[TILE_DRAW + 3u] = 0u;
     }
     if (number.x > last.x || number.y > last.y) {
       return;
@@ -183,6 +188,7 @@ void main() {
   March m;
   m.boxStep = (volume.boxFromEye * vec4(direction, 0.0f)).xyz;
   Span span = rayBox(volume.boxFromEye[3].xyz, m.boxStep, vec3(0.0f), vec3(1.0f));
+  float boxEnd = span.end;
   span.end = min(min(span.end, surface), span.begin + LONGEST_RAY);
   vec4 state = vec4(0.0f, 0.0f, 0.0f, 1.0f);
   vec2 hidden = vec2(0.0f);
@@ -299,7 +305,8 @@ void main() {
   }
 
   if (ofSecond) {
-    storeSecond(pixel / 2u, state, span.end > span.begin ? span.end : 0.0f, hidden);
+    bool cut = DEPTH_ENABLED && boxEnd > span.begin && span.end < boxEnd;
+    storeSecond(pixel / 2u, state, span.end > span.begin ? span.end : 0.0f, hidden, cut);
     return;
   }
   if (DISTANCE) {

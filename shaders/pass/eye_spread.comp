@@ -17,6 +17,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 5) const bool DEPTH_ENABLED = true;
 // Behind other volumes or surfaces.
 layout(constant_id = 9) const bool BEHIND = false;
+layout(constant_id = 12) const bool TILES = false;
 layout(constant_id = 13) const uint TO = SPREAD_TO_PIXELS;
 layout(constant_id = 14) const bool DISTANCE = false;
 
@@ -158,15 +159,16 @@ bool blind(Fan fan, Beam beam, Ray between, Ray error) {
          !meetsVoxels(fan, along, span.end, reach);
 }
 
-// Where the ray of a pixel ends inside the box and where it enters it, m; 0 if it misses.
-vec2 endOf(Fan fan, Beam beam, uvec2 pixel) {
+// Where the ray of a pixel ends inside the box and where it enters it, m, 0 if it misses; more than
+// the first if a surface cuts it short.
+vec3 endOf(Fan fan, Beam beam, uvec2 pixel) {
   float size = length(beam.homogeneous.xyz);
   Span span = rayBox(volume.boxFromEye[3].xyz, beam.along.xyz, vec3(0.0f), vec3(1.0f));
   float d = texelFetch(depthImage, insideView(pixel), 0).x;
   float surface = homogeneousDistance(frame, beam.homogeneous + (d - 0.5f) * fan.depth, d);
-  vec2 end = size * vec2(span.end, span.begin);
-  end.x = min(end.x, endOfRay(frame, beam.along.w / size, surface));
-  return end.x > end.y ? end : vec2(0.0f);
+  vec2 box = size * vec2(span.end, span.begin);
+  float end = min(box.x, endOfRay(frame, beam.along.w / size, surface));
+  return end > box.y ? vec3(end, box.yx) : vec3(0.0f, 0.0f, box.x > box.y ? 1.0f : 0.0f);
 }
 
 // Behind what the volumes in front have left.
@@ -196,7 +198,7 @@ bool inside(uvec2 at) {
 
 // Whether a pixel that ends at `own` may take on what lies between its neighbours. Comparisons that
 // fail for NaN.
-bool serves(vec2 own, Ray between, Ray error, Ray most) {
+bool serves(vec3 own, Ray between, Ray error, Ray most) {
   float bound = SMOOTH_SLABS / volume.texelB.w;
   bool smooth_ = all(lessThanEqual(error.state, bound * most.state));
   if (DISTANCE) {
@@ -248,11 +250,11 @@ void settle(Fan fan, uvec2 first, uvec2 ahead, Ray between, Ray error, Ray most,
     return;
   }
   Beam beam = beamAt(fan, vec2(ahead));
-  vec2 own = DEPTH_ENABLED ? endOf(fan, beam, at * (TO_SECONDS ? 2u : 1u)) : vec2(0.0f);
+  vec3 own = DEPTH_ENABLED ? endOf(fan, beam, at * (TO_SECONDS ? 2u : 1u)) : vec3(0.0f);
   bool unseen = TO_SECONDS && blind(fan, beam, between, error);
   if (!unseen && serves(own, between, error, most)) {
     if (TO_SECONDS) {
-      storeSecond(at, between.state, own.x, between.sums.yz);
+      storeSecond(at, between.state, own.x, between.sums.yz, own.x < own.z);
     } else {
       take(at, between);
     }
@@ -341,8 +343,26 @@ void settleCell(Fan fan, uvec2 first, Row above, Row here, Row next, Row last, u
   settle(fan, first, corner + uvec2(1u, 1u), across, acrossError, most, bit + 2u, asked);
 }
 
+// The invocation's, of its first cell: eight invocations to a tile on the list, or all over the
+// rectangle. One beyond it has nothing to do.
+uvec2 firstCell() {
+  uvec2 place = gl_GlobalInvocationID.xy;
+  if (TILES && !TO_SECONDS) {
+    uint number = listedTile();
+    if (number >= seconds[TILE_LIST + 3u]) {
+      return uvec2(0x7fffu);
+    }
+    uint tile = seconds[tileListAddress() + number];
+    uint part = gl_LocalInvocationID.x;
+    place = uvec2(tile & 0xffffu, tile >> 16u) * uvec2(TILE_SECONDS / SPREAD_COLUMNS,
+                                                       TILE_SECONDS / SPREAD_CELLS) +
+            uvec2(part & 3u, part >> 2u);
+  }
+  return place * uvec2(SPREAD_COLUMNS, SPREAD_CELLS);
+}
+
 void main() {
-  ivec2 at = firstRay() + ivec2(gl_GlobalInvocationID.xy * uvec2(SPREAD_COLUMNS, SPREAD_CELLS));
+  ivec2 at = firstRay() + ivec2(firstCell());
   if (!inside(uvec2(at) * 2u)) {
     return;
   }

@@ -26,9 +26,7 @@ uvec2 lastFourth() {
   return (lastSecond() + 1u) / 2u;
 }
 
-uvec2 secondsOfView() {
-  return uvec2(frame.viewport.xy) / 2u + 2u;
-}
+#include "second_tiles.glsl"
 
 // In secondRays.
 uint secondAddress(uvec2 second) {
@@ -39,8 +37,29 @@ uint listAddress() {
   return LIST_HEAD + SECOND_WORDS * secondsOfView().x * secondsOfView().y;
 }
 
-void storeSecond(uvec2 second, vec4 state, float end, vec2 hidden) {
+// What a ray leaves that meets nothing.
+const vec4 NOTHING = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+
+uvec2 lastTile() {
+  return (lastSecond() - firstSecond()) / TILE_SECONDS;
+}
+
+// Of a list of tiles, with eight invocations to each.
+uint listedTile() {
+  return (gl_WorkGroupID.y * LIST_ROW + gl_WorkGroupID.x) * TILE_PARTS + gl_LocalInvocationID.y;
+}
+
+uint marchNumber() {
+  return slice.flags / SLICE_MARCH;
+}
+
+// `cut`: short of the box's end.
+void storeSecond(uvec2 second, vec4 state, float end, vec2 hidden, bool cut) {
   uint at = secondAddress(second);
+  if (TILES && (cut || any(notEqual(state, NOTHING)))) {
+    uvec2 first = firstSecond();
+    seconds[tileAddress((max(second, first) - first) / TILE_SECONDS)] = marchNumber();
+  }
   secondRays[at] = state;
   if (DEPTH_ENABLED || DISTANCE) {
     secondRays[at + 1u] = vec4(end, hidden, 0.0f);

@@ -12,6 +12,10 @@ vk::PipelineKey lightKey(const LightVariant& v, uint32_t fields) {
                   fields);
 }
 
+bool leapsIn(uint32_t fields, const SliceQuality& quality) {
+  return (fields & VolumeState::LEAPING) != 0 && !quality.noSkip;
+}
+
 vk::PipelineKey eyeKey(const EyeVariant& v, uint32_t fields, const SliceQuality& quality) {
   vk::PipelineKey key =
       ofFields({v.stored ? vk::Pass::EyeMarch : vk::Pass::EyeSlices,
@@ -20,20 +24,30 @@ vk::PipelineKey eyeKey(const EyeVariant& v, uint32_t fields, const SliceQuality&
                  quality.transport && v.light, quality.multipleSky, v.ambient}},
                fields);
   key.constants[10] = v.stored && (fields & VolumeState::GREY) != 0 ? 1 : 0;
-  const bool leaps = (fields & VolumeState::LEAPING) != 0;
-  key.constants[12] = v.stored && leaps && !quality.noSkip ? 1 : 0;
+  key.constants[12] = v.stored && leapsIn(fields, quality) ? 1 : 0;
   key.constants[13] = v.rays;
   key.constants[14] = v.distance;
   key.constants[15] = fields / VolumeState::VARYING;
   return key;
 }
 
-vk::PipelineKey spreadKey(uint32_t to, bool depth, bool distance, bool behind) {
+vk::PipelineKey spreadKey(uint32_t to, const SpreadVariant& v) {
   vk::PipelineKey key{vk::Pass::EyeSpread, VK_FORMAT_UNDEFINED, {}};
-  key.constants[5] = depth;
+  key.constants[5] = v.depth;
   // Second pixels are of one volume.
-  key.constants[9] = behind && to == interface_::SPREAD_TO_PIXELS;
+  key.constants[9] = v.behind && to == interface_::SPREAD_TO_PIXELS;
+  key.constants[12] = v.tiles;
   key.constants[13] = to;
+  key.constants[14] = v.distance;
+  return key;
+}
+
+vk::PipelineKey tilesKey() {
+  return {vk::Pass::EyeTiles, VK_FORMAT_UNDEFINED, {}};
+}
+
+vk::PipelineKey clearKey(bool distance) {
+  vk::PipelineKey key{vk::Pass::EyeClear, VK_FORMAT_UNDEFINED, {}};
   key.constants[14] = distance;
   return key;
 }
@@ -139,6 +153,7 @@ vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& v)
   if (info.composite == WLK_COMPOSITE_BLEND) {
     key.pass = vk::Pass::CompositeBlend;
     key.format = targetFormat(info.targetFormat);
+    key.constants[vk::BLEND_TILES] = v.tiles;
   } else {
     key.pass = vk::Pass::Composite;
     key.constants[7] = info.composite == WLK_COMPOSITE_SEPARATE;
@@ -175,6 +190,16 @@ static void prepareSurfaces(vk::Pipelines& pipelines, const ViewState& view,
   }
 }
 
+static void prepareSpreads(vk::Pipelines& pipelines, const SpreadVariant& v) {
+  for (const uint32_t to : SPREADS) {
+    pipelines.prepare(spreadKey(to, v));
+  }
+  if (v.tiles) {
+    pipelines.prepare(tilesKey());
+    pipelines.prepare(clearKey(v.distance));
+  }
+}
+
 void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
                       const SceneFeatures& features, std::span<const uint32_t> fieldKinds) {
   // Every state the frame may find the scene in without another wlkPrepare: light above or below
@@ -183,6 +208,10 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
   const bool sky = features.sky && (view.info.layers & WLK_LAYER_SKY) != 0;
   const uint32_t air = sky ? (features.absorber ? 2 : 1) : 0;
   const bool fog = features.fog && (view.info.layers & WLK_LAYER_FOG) != 0;
+  const bool tiles = features.stores && quality.halfVolumes &&
+                     view.info.composite == WLK_COMPOSITE_BLEND &&
+                     std::any_of(fieldKinds.begin(), fieldKinds.end(),
+                                 [&](uint32_t fields) { return leapsIn(fields, quality); });
   if (features.surfaces > 0) {
     const bool ambient = features.ambient && quality.ambientCells > 0;
     prepareSurfaces(pipelines, view, quality,
@@ -207,9 +236,8 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
                   pipelines.prepare(eyeKey(v, fields, quality));
                   v.rays = interface_::RAYS_OF_LIST;
                   pipelines.prepare(eyeKey(v, fields, quality));
-                  for (const uint32_t to : SPREADS) {
-                    pipelines.prepare(spreadKey(to, depth, distance, false));
-                    pipelines.prepare(spreadKey(to, depth, distance, features.several));
+                  for (const bool behind : {false, features.several}) {
+                    prepareSpreads(pipelines, {depth, distance, behind, leapsIn(fields, quality)});
                   }
                 } else {
                   v.rays = interface_::RAYS_OF_PIXELS;
@@ -238,7 +266,11 @@ void preparePipelines(vk::Pipelines& pipelines, const ViewState& view,
       v.multiple = quality.multipleSky && lights > 0;
       const bool open = v.multiple && sky && !fog;
       const auto prepare = [&] {
-        pipelines.prepare(compositeKey(view.info, v));
+        for (const bool some : {false, tiles && !sky && !fog}) {
+          v.tiles = some;
+          pipelines.prepare(compositeKey(view.info, v));
+        }
+        v.tiles = false;
         if (view.aerial) {
           pipelines.prepare(aerialKey(v));
         }

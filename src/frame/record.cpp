@@ -122,8 +122,10 @@ class Recorder {
       c_.find(skyTableKey(plan.airKind(), plan.fog, plan.lightCount(), plan.allLight));
     }
     if (plan.composite) {
-      compositePipeline_ =
-          c_.find(compositeKeyOf(c_.pipelines, view_, static_cast<bool>(targets_.depth)));
+      vk::PipelineKey key = compositeKeyOf(c_.pipelines, view_, static_cast<bool>(targets_.depth));
+      onlyTiles_ = onlyTilesSeen(c_, targets_);
+      key.constants[vk::BLEND_TILES] = onlyTiles_;
+      compositePipeline_ = c_.find(key);
     }
     if (targets_.volumeDistance) {
       c_.find(distanceKey());
@@ -285,6 +287,14 @@ class Recorder {
     const auto index = static_cast<uint32_t>(view_.record.passes.size());
     if (view_.plan.composite) {
       bindComposite(c_.bindings, c_.pipelines, view_, targets_, in_, counterOffset());
+      if (onlyTiles_) {
+        c_.bindings.buffer(slot_.composite, vk::BIND_COMPOSITE_TILES,
+                           VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, view_.resources.volumeState.handle(),
+                           0, view_.resources.volumeState.size());
+        c_.barrier({COMPUTE, SHADER_ACCESS},
+                   {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT,
+                    SHADER_ACCESS | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
+      }
       c_.orderShaders();
       if (view_.info.composite == WLK_COMPOSITE_BLEND) {
         drawBlend(stats, index);
@@ -320,12 +330,24 @@ class Recorder {
         0.0f, 0.0f, static_cast<float>(view_.info.width), static_cast<float>(view_.info.height),
         0.0f, 1.0f};
     c_.vk.CmdSetViewport(c_.commands, 0, 1, &viewport);
-    c_.vk.CmdSetScissor(c_.commands, 0, 1, &area);
-    c_.vk.CmdDraw(c_.commands, 3, 1, 0, 0);
+    // Without air nothing is seen in front of what volumes and surfaces do not cover.
+    const PixelRect& rect = view_.plan.volumeRect;
+    const bool all = view_.plan.airKind() > 0 || view_.plan.fog;
+    const VkRect2D drawn =
+        all ? area
+            : VkRect2D{{static_cast<int32_t>(rect.x0), static_cast<int32_t>(rect.y0)},
+                       {rect.x1 - rect.x0, rect.y1 - rect.y0}};
+    c_.vk.CmdSetScissor(c_.commands, 0, 1, &drawn);
+    if (onlyTiles_) {
+      c_.vk.CmdDrawIndirect(c_.commands, view_.resources.volumeState.handle(),
+                            4 * VkDeviceSize{interface_::TILE_DRAW}, 1, 0);
+    } else {
+      c_.vk.CmdDraw(c_.commands, 3, 1, 0, 0);
+      stats.invocations += uint64_t{drawn.extent.width} * drawn.extent.height;
+    }
     c_.vk.CmdEndRendering(c_.commands);
     stats.recorded = 1;
     stats.commands += 1;
-    stats.invocations += uint64_t{view_.info.width} * view_.info.height;
     view_.record.stats.draws += 1;
     c_.timestamp(index);
   }
@@ -340,6 +362,7 @@ class Recorder {
   const ViewTargets& targets_;
   ViewSlot& slot_;
   VkPipeline compositePipeline_ = VK_NULL_HANDLE;
+  bool onlyTiles_ = false;  // the composite draws
   bool anything_ = false;
   std::array<WlkVulkanImageState, IMAGES> work_{};
   SkyTableKey skyKey_{};

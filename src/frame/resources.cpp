@@ -74,7 +74,7 @@ VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t vol
                                     2 * SURFACE_PICTURES * surfaces + 3 + more)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                            slots * ((10 + 4 * more) * volumes + 4 * spread +
-                                    SURFACE_BUFFERS * SURFACE_PICTURES * surfaces + 4 + 3 * more)},
+                                    SURFACE_BUFFERS * SURFACE_PICTURES * surfaces + 5 + 4 * more)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
                            slots * ((3 + more) * volumes + spread + 5 + 2 * more)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
@@ -240,11 +240,15 @@ void makeAmbient(vk::Device& device, const SliceQuality& quality, uint32_t volum
   r.viewAmbient = vk::Image(device, info);
 }
 
-// Of the buffer of every second pixel and of the list (shaders/interface/slices.glsl), which three
-// pixels of four may be on.
+// Of the buffer of every second pixel and of the lists (shaders/interface/slices.glsl), on which
+// three pixels of four may be, and every tile.
 VkDeviceSize secondsBytes(const WlkViewInfo& info) {
-  const VkDeviceSize seconds = VkDeviceSize{info.width / 2 + 2} * (info.height / 2 + 2);
-  return 4 * (interface_::LIST_HEAD + (interface_::SECOND_SIZE + 3) * seconds);
+  constexpr uint32_t EDGE = interface_::TILE_SECONDS;
+  const uint32_t columns = info.width / 2 + 2;
+  const uint32_t rows = info.height / 2 + 2;
+  const VkDeviceSize tiles = VkDeviceSize{(columns + EDGE - 1) / EDGE} * ((rows + EDGE - 1) / EDGE);
+  return 4 * (interface_::LIST_HEAD + interface_::TILE_WORDS * tiles +
+              VkDeviceSize{interface_::SECOND_SIZE + interface_::LIST_MOST} * columns * rows);
 }
 
 void makeHeadlessTargets(vk::Device& device, const WlkViewInfo& info, ViewResources& r) {
@@ -333,10 +337,10 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
       vk::Buffer(device, counterStride * framesInFlight,
                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
   const uint32_t batches = (quality.sliceCount + quality.batchSize - 1) / quality.batchSize;
-  // Volumes not in every pixel take five commands instead of one.
+  // Volumes not in every pixel take seven commands instead of one.
   r.queryCount =
       6 + SURFACE_DISPATCHES * features.surfaces +
-      volumeCount * ((view.aerial ? 3 : 2) * batches + 3 + (quality.halfVolumes ? 4 : 0));
+      volumeCount * ((view.aerial ? 3 : 2) * batches + 3 + (quality.halfVolumes ? 6 : 0));
   const VkDeviceSize pixels = VkDeviceSize{info.width} * info.height;
   const uint32_t layers = volumeCount + features.surfaces;
   const VkDeviceSize stateBytes = layers > 0 ? pixels * 16 : 16;

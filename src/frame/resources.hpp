@@ -87,7 +87,16 @@ vk::PipelineKey surfaceShadeKey(const SurfaceVariant& variant, const SliceQualit
 vk::PipelineKey distanceKey();
 // What pixels between rays take on.
 inline constexpr std::array SPREADS{interface_::SPREAD_TO_SECONDS, interface_::SPREAD_TO_PIXELS};
-vk::PipelineKey spreadKey(uint32_t to, bool depth, bool distance, bool behind);
+struct SpreadVariant {
+  bool depth, distance, behind;
+  bool tiles;  // only where something was seen
+};
+vk::PipelineKey spreadKey(uint32_t to, const SpreadVariant& variant);
+// Where that is, and what an empty ray leaves in all other tiles.
+vk::PipelineKey tilesKey();
+vk::PipelineKey clearKey(bool distance);
+// Whether rays leap over empty bricks of volumes with this field kind.
+bool leapsIn(uint32_t fields, const SliceQuality& quality);
 vk::PipelineKey eyeKey(const EyeVariant& variant, uint32_t fields, const SliceQuality& quality);
 inline constexpr std::array TRANSPORT_PASSES{
     vk::Pass::TransportDepth,  vk::Pass::TransportCells,       vk::Pass::TransportSweep,
@@ -107,6 +116,7 @@ struct CompositeVariant {
   uint32_t disk;  // Plan::diskKind
   bool ground, multiple, space, allLight;
   uint32_t shadows;  // Plan::shadowKind
+  bool tiles;        // blends tiles in which something is seen, see onlyTilesSeen
 };
 vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& variant);
 vk::PipelineKey aerialKey(CompositeVariant variant);

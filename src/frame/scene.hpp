@@ -398,6 +398,7 @@ struct ViewResources {
   vk::Buffer distances;  // of the volumes, where the view tells them
   vk::Buffer frameState;
   vk::Buffer volumeState;
+  uint32_t march = 0;   // number of the last one in a grid of pixels, see SLICE_MARCH
   vk::Buffer uniforms;  // per slot: frame, fog curve, volumes
   VkDeviceSize slotStride = 0;
   VkDeviceSize fogOffset = 0;

@@ -41,9 +41,10 @@ bool marchesGrid(const FrameCommands& c, const PlannedVolume& planned) {
   return c.quality.halfVolumes && c.in.volumes[planned.index].store != nullptr;
 }
 
-vk::PipelineKey spreadKeyOf(uint32_t to, const ViewTargets& targets, bool first) {
-  return spreadKey(to, static_cast<bool>(targets.depth), static_cast<bool>(targets.volumeDistance),
-                   !first);
+SpreadVariant spreadOf(const FrameCommands& c, const ViewTargets& targets,
+                       const PlannedVolume& planned, bool first) {
+  return {static_cast<bool>(targets.depth), static_cast<bool>(targets.volumeDistance), !first,
+          leapsIn(c.in.volumes[planned.index].state->fieldKind(), c.quality)};
 }
 
 // Whether voxels are wide enough for rays in every fourth pixel: a voxel's density reaches over
@@ -94,7 +95,8 @@ class VolumeRecorder {
         planned_(planned),
         volume_(commands.in.volumes[planned.index]),
         rank_(static_cast<uint32_t>(&planned - commands.view.plan.volumes.data())),
-        first_(first) {}
+        first_(first),
+        spread_(spreadOf(commands, targets, planned, first)) {}
 
   void run() {
     WlkPassStats light = passStats("light slices", WLK_PASS_LIGHT_SLICES, planned_.id);
@@ -230,8 +232,11 @@ class VolumeRecorder {
 
   // Rays of every fourth pixel and second pixels between them, or rays of every second pixel; then
   // pixels between those; each with rays where what is around will not do.
-  void dispatchGrid(const SliceConstants& push, WlkPassStats& eye, uint32_t index) {
+  void dispatchGrid(SliceConstants push, WlkPassStats& eye, uint32_t index) {
     const PixelRect& rect = covered_.rect;
+    uint32_t& march = c_.view.resources.march;
+    march = march % (~0U / interface_::SLICE_MARCH) + 1;
+    push.flags |= march * interface_::SLICE_MARCH;
     const PixelRect seconds{rect.x0 / 2, rect.y0 / 2, rect.x1 / 2 + 1, rect.y1 / 2 + 1};
     const PixelRect fourths{seconds.x0 / 2, seconds.y0 / 2, seconds.x1 / 2 + 1, seconds.y1 / 2 + 1};
     const bool far = fourthsServe(c_, planned_);
@@ -243,23 +248,59 @@ class VolumeRecorder {
                 groups(rays.y1 - rays.y0), eye, index);
     if (far) {
       dispatchSpread(interface_::SPREAD_TO_SECONDS, fourths, ofSeconds, eye, index);
+      dispatchListed(interface_::SPREAD_TO_SECONDS, eye, index);
     }
-    dispatchSpread(interface_::SPREAD_TO_PIXELS, seconds, push, eye, index);
+    if (spread_.tiles) {
+      dispatchTiles(seconds, push, eye, index);
+    } else {
+      dispatchSpread(interface_::SPREAD_TO_PIXELS, seconds, push, eye, index);
+    }
+    dispatchListed(interface_::SPREAD_TO_PIXELS, eye, index);
   }
 
   // `rays`: the numbers of those between which the others are.
   void dispatchSpread(uint32_t to, const PixelRect& rays, const SliceConstants& push,
                       WlkPassStats& eye, uint32_t index) {
     c_.orderShaders();
-    c_.dispatch(c_.find(spreadKeyOf(to, targets_, first_)), c_.pipelines.volumeLayout(), &push,
+    c_.dispatch(c_.find(spreadKey(to, spread_)), c_.pipelines.volumeLayout(), &push,
                 groups((rays.x1 - rays.x0 + SPREAD_COLUMNS - 1) / SPREAD_COLUMNS),
                 groups((rays.y1 - rays.y0 + SPREAD_CELLS - 1) / SPREAD_CELLS), eye, index);
+  }
+
+  // Pixels of tiles in which something may be seen; the first volume clears the others where anyone
+  // reads them.
+  void dispatchTiles(const PixelRect& seconds, const SliceConstants& push, WlkPassStats& eye,
+                     uint32_t index) {
+    constexpr uint32_t EDGE = interface_::TILE_SECONDS;
+    constexpr uint32_t ROW = EDGE * interface_::ROW_TILES;
+    c_.orderShaders();
+    c_.dispatch(c_.find(tilesKey()), c_.pipelines.volumeLayout(), &push,
+                groups((seconds.x1 - seconds.x0 + ROW - 1) / ROW),
+                groups((seconds.y1 - seconds.y0 + EDGE - 1) / EDGE), eye, index);
+    orderLists();
+    if (first_ && !onlyTilesSeen(c_, targets_)) {
+      c_.dispatchIndirect(c_.find(clearKey(spread_.distance)), lists(),
+                          4 * VkDeviceSize{interface_::CLEAR_LIST}, eye, index);
+      c_.orderShaders();
+    }
+    c_.dispatchIndirect(c_.find(spreadKey(interface_::SPREAD_TO_PIXELS, spread_)), lists(),
+                        4 * VkDeviceSize{interface_::TILE_LIST}, eye, index);
+  }
+
+  // Rays of what the last spread has asked for.
+  void dispatchListed(uint32_t to, WlkPassStats& eye, uint32_t index) {
+    const VkDeviceSize list = to == interface_::SPREAD_TO_SECONDS ? 0 : interface_::LIST_SIZE;
+    orderLists();
+    c_.dispatchIndirect(c_.find(eyeKeyOf(c_, targets_, planned_, interface_::RAYS_OF_LIST)),
+                        lists(), 4 * list, eye, index);
+  }
+
+  void orderLists() {
     c_.barrier({COMPUTE, SHADER_ACCESS}, {COMPUTE | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
                                           SHADER_ACCESS | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
-    const VkDeviceSize list = to == interface_::SPREAD_TO_SECONDS ? 0 : interface_::LIST_SIZE;
-    c_.dispatchIndirect(c_.find(eyeKeyOf(c_, targets_, planned_, interface_::RAYS_OF_LIST)),
-                        c_.view.resources.volumeState.handle(), 4 * list, eye, index);
   }
+
+  VkBuffer lists() const { return c_.view.resources.volumeState.handle(); }
 
   // Pixels whose froxels are marched: surfaces are in none, so that the first volume clears them.
   const PixelRect& froxelsOf() const {
@@ -379,10 +420,18 @@ class VolumeRecorder {
   const RecordVolume& volume_;
   uint32_t rank_;
   bool first_;
+  SpreadVariant spread_;
   PlannedVolume covered_{};  // with the pixels that the eye's pass runs over
 };
 
 }  // namespace
+
+bool onlyTilesSeen(const FrameCommands& c, const ViewTargets& targets) {
+  const Plan& plan = c.view.plan;
+  return c.view.info.composite == WLK_COMPOSITE_BLEND && plan.airKind() == 0 && !plan.fog &&
+         plan.drawnCount == 1 && plan.surfaceCount == 0 && !targets.volumeDistance &&
+         marchesGrid(c, plan.volumes[0]) && spreadOf(c, targets, plan.volumes[0], true).tiles;
+}
 
 void findVolumePipelines(const FrameCommands& commands, const ViewTargets& targets,
                          const PlannedVolume& planned, bool first) {
@@ -392,8 +441,13 @@ void findVolumePipelines(const FrameCommands& commands, const ViewTargets& targe
   if (marchesGrid(commands, planned)) {
     commands.find(eyeKeyOf(commands, targets, planned, interface_::RAYS_OF_GRID));
     commands.find(eyeKeyOf(commands, targets, planned, interface_::RAYS_OF_LIST));
+    const SpreadVariant variant = spreadOf(commands, targets, planned, first);
     for (const uint32_t to : SPREADS) {
-      commands.find(spreadKeyOf(to, targets, first));
+      commands.find(spreadKey(to, variant));
+    }
+    if (variant.tiles) {
+      commands.find(tilesKey());
+      commands.find(clearKey(variant.distance));
     }
   } else {
     commands.find(eyeKeyOf(commands, targets, planned, interface_::RAYS_OF_PIXELS));

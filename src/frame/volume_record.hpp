@@ -15,4 +15,8 @@ void findVolumePipelines(const FrameCommands& commands, const ViewTargets& targe
 void recordVolume(FrameCommands& commands, const ViewTargets& targets, const PlannedVolume& planned,
                   bool first);
 
+// Whether what one volume leaves in tiles in which it is seen is all that there is to composite:
+// their list is in the view's volumeState.
+bool onlyTilesSeen(const FrameCommands& commands, const ViewTargets& targets);
+
 }  // namespace welkin

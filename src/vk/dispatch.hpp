@@ -28,7 +28,7 @@ namespace welkin::vk {
   X(CmdPushConstants) X(CmdDispatch) X(CmdDispatchIndirect) X(CmdUpdateBuffer)                  \
   X(CmdResetQueryPool) X(CmdWriteTimestamp2)                                                    \
   X(CmdBeginRendering) X(CmdEndRendering) X(CmdSetViewport) X(CmdSetScissor) X(CmdDraw)         \
-  X(CmdClearColorImage)
+  X(CmdDrawIndirect) X(CmdClearColorImage)
 
 // Only for headless contexts, which own queue and command buffers.
 #define WELKIN_HEADLESS_FUNCTIONS(X)                                                            \

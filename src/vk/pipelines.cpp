@@ -12,10 +12,13 @@
 #include "ambient_view_comp_spv.h"
 #include "composite_blend_frag_spv.h"
 #include "composite_comp_spv.h"
+#include "composite_tiles_vert_spv.h"
 #include "composite_vert_spv.h"
+#include "eye_clear_comp_spv.h"
 #include "eye_march_comp_spv.h"
 #include "eye_slices_comp_spv.h"
 #include "eye_spread_comp_spv.h"
+#include "eye_tiles_comp_spv.h"
 #include "light_depth_comp_spv.h"
 #include "light_slices_comp_spv.h"
 #include "shadow_map_comp_spv.h"
@@ -147,7 +150,7 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
     volume[BIND_FOG_CURVE].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     volume[BIND_DISTANCES].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     volumeSet_ = makeSetLayout(device_, volume);
-    const std::array composite{
+    std::array composite{
         binding(BIND_COMPOSITE_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
         binding(BIND_COMPOSITE_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
         binding(BIND_COMPOSITE_DEPTH, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
@@ -161,7 +164,11 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
         binding(BIND_COMPOSITE_SKY_MOMENTS, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
         binding(BIND_COMPOSITE_SHADOW, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
         binding(BIND_COMPOSITE_LIGHT_SHADOW, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
-        binding(BIND_COMPOSITE_SKY_FOG, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)};
+        binding(BIND_COMPOSITE_SKY_FOG, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
+        binding(BIND_COMPOSITE_TILES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)};
+    for (const uint32_t i : {BIND_COMPOSITE_FRAME, BIND_COMPOSITE_TILES}) {
+      composite[i].stageFlags |= VK_SHADER_STAGE_VERTEX_BIT;
+    }
     const std::array sky{binding(BIND_SKY_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
                          binding(BIND_SKY_MOMENTS, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
                          binding(BIND_SKY_TABLE_STORAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE),
@@ -296,6 +303,10 @@ Pipelines::Compute Pipelines::computeOf(Pass pass) const {
       return {eye_march_comp_spv, volumeLayout_};
     case Pass::EyeSpread:
       return {eye_spread_comp_spv, volumeLayout_};
+    case Pass::EyeTiles:
+      return {eye_tiles_comp_spv, volumeLayout_};
+    case Pass::EyeClear:
+      return {eye_clear_comp_spv, volumeLayout_};
     case Pass::SkyTable:
       return {sky_table_comp_spv, skyLayout_};
     case Pass::AmbientCells:
@@ -378,7 +389,9 @@ VkPipeline Pipelines::makeCompute(const PipelineKey& key) {
 }
 
 VkPipeline Pipelines::makeBlend(const PipelineKey& key) {
-  const Module vertex(device_, composite_vert_spv);
+  const bool tiles = key.constants[BLEND_TILES] != 0;
+  const Module vertex(device_, tiles ? std::span<const uint32_t>(composite_tiles_vert_spv)
+                                     : std::span<const uint32_t>(composite_vert_spv));
   const Module fragment(device_, prunedCode(composite_blend_frag_spv, key.constants, hostMemory()));
   const Specialization specialization(key);
   std::array<VkPipelineShaderStageCreateInfo, 2> stages{};

@@ -19,6 +19,8 @@ enum class Pass : uint32_t {
   EyeSlices,
   EyeMarch,
   EyeSpread,
+  EyeTiles,
+  EyeClear,
   SkyTable,
   Composite,
   CompositeBlend,
@@ -53,6 +55,8 @@ enum class Pass : uint32_t {
 };
 
 constexpr uint32_t MAX_CONSTANTS = 16;
+// Of CompositeBlend's: 1 where it draws tiles instead of the whole target. No shader's.
+constexpr uint32_t BLEND_TILES = 15;
 
 // Values of constant_id 0, 1, 2, ... of the pass; booleans are 0 or 1.
 struct PipelineKey {
@@ -99,7 +103,8 @@ enum CompositeBinding : uint32_t {
   BIND_COMPOSITE_SHADOW = 11,
   BIND_COMPOSITE_LIGHT_SHADOW = 12,
   BIND_COMPOSITE_SKY_FOG = 13,
-  COMPOSITE_BINDING_COUNT = 14
+  BIND_COMPOSITE_TILES = 14,
+  COMPOSITE_BINDING_COUNT = 15
 };
 enum SkyTableBinding : uint32_t {
   BIND_SKY_FRAME = 0,

@@ -37,6 +37,7 @@ namespace {
   X(CmdPushConstants) X(CmdDispatch) X(CmdDispatchIndirect) X(CmdUpdateBuffer)                  \
   X(CmdResetQueryPool) X(CmdWriteTimestamp2)                                                    \
   X(CmdBeginRendering) X(CmdEndRendering) X(CmdSetViewport) X(CmdSetScissor) X(CmdDraw)         \
+  X(CmdDrawIndirect)                                                                            \
   X(CmdClearColorImage) X(GetBufferMemoryRequirements) X(GetImageMemoryRequirements)            \
   X(GetDeviceQueue)
 // clang-format on
@@ -105,7 +106,7 @@ constexpr bool needsPipeline(Call call) {
   return call == CALL_CreateShaderModule || call == CALL_DestroyShaderModule ||
          call == CALL_CreateComputePipelines || call == CALL_CreateGraphicsPipelines ||
          call == CALL_DestroyPipeline || call == CALL_CmdBindPipeline || call == CALL_CmdDispatch ||
-         call == CALL_CmdDispatchIndirect || call == CALL_CmdDraw;
+         call == CALL_CmdDispatchIndirect || call == CALL_CmdDraw || call == CALL_CmdDrawIndirect;
 }
 
 template <Call WHICH>

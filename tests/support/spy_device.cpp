@@ -17,6 +17,7 @@ namespace {
   X(CmdDispatch, dispatches)               \
   X(CmdDispatchIndirect, dispatches)       \
   X(CmdDraw, draws)                        \
+  X(CmdDrawIndirect, draws)                \
   X(CmdPipelineBarrier2, barriers)         \
   X(CmdCopyBufferToImage, copies)          \
   X(CmdCopyImageToBuffer, copies)          \

@@ -19,9 +19,11 @@
 #include "ambient_view_comp_spv.h"
 #include "composite_blend_frag_spv.h"
 #include "composite_comp_spv.h"
+#include "eye_clear_comp_spv.h"
 #include "eye_march_comp_spv.h"
 #include "eye_slices_comp_spv.h"
 #include "eye_spread_comp_spv.h"
+#include "eye_tiles_comp_spv.h"
 #include "light_depth_comp_spv.h"
 #include "light_slices_comp_spv.h"
 #include "shadow_map_comp_spv.h"
@@ -195,7 +197,8 @@ INSTANTIATE_TEST_SUITE_P(
         Pass{"AmbientSweep", ambient_sweep_comp_spv}, Pass{"AmbientView", ambient_view_comp_spv},
         Pass{"CompositeBlend", composite_blend_frag_spv}, Pass{"Composite", composite_comp_spv},
         Pass{"EyeMarch", eye_march_comp_spv}, Pass{"EyeSlices", eye_slices_comp_spv},
-        Pass{"EyeSpread", eye_spread_comp_spv}, Pass{"LightDepth", light_depth_comp_spv},
+        Pass{"EyeSpread", eye_spread_comp_spv}, Pass{"EyeTiles", eye_tiles_comp_spv},
+        Pass{"EyeClear", eye_clear_comp_spv}, Pass{"LightDepth", light_depth_comp_spv},
         Pass{"LightSlices", light_slices_comp_spv}, Pass{"ShadowMap", shadow_map_comp_spv},
         Pass{"ShadowResolve", shadow_resolve_comp_spv}, Pass{"SkyTable", sky_table_comp_spv},
         Pass{"SurfaceCells", surface_cells_comp_spv}, Pass{"SurfaceCover", surface_cover_comp_spv},
