@@ -43,8 +43,8 @@ const float SAME_END = 0.02f;
 // Pixels of a cell without a ray of their own, which may ask for one: bits in a word, 32 at most.
 const uint ASKED_PER_CELL = 3u;
 
-// What a ray saw: radiance and transmittance; where it ends (m), 0 if it misses the box, and sums
-// for the volumes' distance.
+// What a ray saw: radiance and transmittance; where it ends (m), 0 if it misses the box, sums for
+// the volumes' distance, and 1 if a surface cut it short.
 struct Ray {
   vec4 state;
   vec4 sums;
@@ -159,8 +159,8 @@ bool blind(Fan fan, Beam beam, Ray between, Ray error) {
          !meetsVoxels(fan, along, span.end, reach);
 }
 
-// Where the ray of a pixel ends inside the box and where it enters it, m, 0 if it misses; more than
-// the first if a surface cuts it short.
+// x: where the ray of a pixel ends inside the box, y: where it enters it (m), both 0 if it sees
+// none of it; z: more than x if a surface cuts it short.
 vec3 endOf(Fan fan, Beam beam, uvec2 pixel) {
   float size = length(beam.homogeneous.xyz);
   Span span = rayBox(volume.boxFromEye[3].xyz, beam.along.xyz, vec3(0.0f), vec3(1.0f));
@@ -205,7 +205,12 @@ bool serves(vec3 own, Ray between, Ray error, Ray most) {
     smooth_ = smooth_ && error.sums.y <= bound * most.sums.y;
   }
   if (DEPTH_ENABLED) {
-    smooth_ = smooth_ && abs(own.x - between.sums.x) <= SAME_END * (own.x - own.y);
+    // Where rays around see nothing as far as the box reaches, it does not matter how far this one
+    // goes: eye_tiles.comp relies on that.
+    bool nothing = between.sums.w == 0.0f && error.sums.w == 0.0f &&
+                   all(equal(between.state, NOTHING)) && all(equal(error.state, vec4(0.0f)));
+    bool sameEnd = abs(own.x - between.sums.x) <= SAME_END * (own.x - own.y);
+    smooth_ = smooth_ && (nothing || sameEnd);
   }
   return smooth_;
 }

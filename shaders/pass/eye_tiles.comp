@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tiles of 16 x 16 pixels of a volume with empty bricks, once all second pixels' rays are known: a
 // list of those in which or next to which a ray saw anything or was cut short by a surface, and one
-// of the others, in which the cubics of eye_spread.comp could only leave what an empty ray leaves.
+// of the others, in which eye_spread.comp could only leave what an empty ray leaves.
 // An invocation looks at ROW_TILES tiles beside each other.
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -53,16 +53,17 @@ uint marchNumber() {
   return slice.flags / SLICE_MARCH;
 }
 
-// `cut`: short of the box's end.
+// `hidden`: what the volumes' distance needs; `cut`: short of the box's end.
 void storeSecond(uvec2 second, vec4 state, float end, vec2 hidden, bool cut) {
   uint at = secondAddress(second);
-  if (TILES && (cut || any(notEqual(state, NOTHING)))) {
+  bool seen = any(notEqual(state, NOTHING)) || (DISTANCE && any(notEqual(hidden, vec2(0.0f))));
+  if (TILES && (cut || seen)) {
     uvec2 first = firstSecond();
     seconds[tileAddress((max(second, first) - first) / TILE_SECONDS)] = marchNumber();
   }
   secondRays[at] = state;
   if (DEPTH_ENABLED || DISTANCE) {
-    secondRays[at + 1u] = vec4(end, hidden, 0.0f);
+    secondRays[at + 1u] = vec4(end, hidden, cut ? 1.0f : 0.0f);
   }
 }
 

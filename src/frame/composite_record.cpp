@@ -21,8 +21,10 @@ CompositeVariant compositeVariant(const ViewState& view, bool depth) {
   return v;
 }
 
-vk::PipelineKey compositeKeyOf(const vk::Pipelines& pipelines, const ViewState& view, bool depth) {
+vk::PipelineKey compositeKeyOf(const vk::Pipelines& pipelines, const ViewState& view, bool depth,
+                               bool tiles) {
   CompositeVariant v = compositeVariant(view, depth);
+  v.tiles = tiles;
   // Variants are prepared for a layer as a whole; until one for space is, the table must do.
   vk::PipelineKey key;
   bool found = false;

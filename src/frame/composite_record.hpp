@@ -12,7 +12,9 @@ namespace welkin {
 CompositeVariant compositeVariant(const ViewState& view, bool depth);
 
 // Of the pipelines that were prepared the one that shows the plan best.
-vk::PipelineKey compositeKeyOf(const vk::Pipelines& pipelines, const ViewState& view, bool depth);
+// `tiles`: by tiles, see onlyTilesSeen.
+vk::PipelineKey compositeKeyOf(const vk::Pipelines& pipelines, const ViewState& view, bool depth,
+                               bool tiles);
 
 // What passes that draw a layer read, the frame's constants and the volumes' state excepted.
 void bindLayer(Bindings& bindings, const vk::Pipelines& pipelines, const ViewState& view,

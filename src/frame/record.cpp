@@ -122,10 +122,9 @@ class Recorder {
       c_.find(skyTableKey(plan.airKind(), plan.fog, plan.lightCount(), plan.allLight));
     }
     if (plan.composite) {
-      vk::PipelineKey key = compositeKeyOf(c_.pipelines, view_, static_cast<bool>(targets_.depth));
       onlyTiles_ = onlyTilesSeen(c_, targets_);
-      key.constants[vk::BLEND_TILES] = onlyTiles_;
-      compositePipeline_ = c_.find(key);
+      compositePipeline_ = c_.find(
+          compositeKeyOf(c_.pipelines, view_, static_cast<bool>(targets_.depth), onlyTiles_));
     }
     if (targets_.volumeDistance) {
       c_.find(distanceKey());
@@ -330,9 +329,9 @@ class Recorder {
         0.0f, 0.0f, static_cast<float>(view_.info.width), static_cast<float>(view_.info.height),
         0.0f, 1.0f};
     c_.vk.CmdSetViewport(c_.commands, 0, 1, &viewport);
-    // Without air nothing is seen in front of what volumes and surfaces do not cover.
+    // Without air and fog nothing is seen in front of what volumes and surfaces do not cover.
     const PixelRect& rect = view_.plan.volumeRect;
-    const bool all = view_.plan.airKind() > 0 || view_.plan.fog;
+    const bool all = view_.plan.airKind() > 0 || view_.plan.fog || c_.quality.noSkip;
     const VkRect2D drawn =
         all ? area
             : VkRect2D{{static_cast<int32_t>(rect.x0), static_cast<int32_t>(rect.y0)},
@@ -362,7 +361,7 @@ class Recorder {
   const ViewTargets& targets_;
   ViewSlot& slot_;
   VkPipeline compositePipeline_ = VK_NULL_HANDLE;
-  bool onlyTiles_ = false;  // the composite draws
+  bool onlyTiles_ = false;  // are what the composite draws, see onlyTilesSeen
   bool anything_ = false;
   std::array<WlkVulkanImageState, IMAGES> work_{};
   SkyTableKey skyKey_{};

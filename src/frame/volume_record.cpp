@@ -22,6 +22,9 @@ using interface_::SPREAD_COLUMNS;
 using interface_::VolumeUniforms;
 
 static_assert(3 * SPREAD_COLUMNS * SPREAD_CELLS <= 32, "eye_spread.comp asks by bits of a word");
+static_assert(interface_::TILE_SECONDS == 4 * SPREAD_COLUMNS &&
+                  interface_::TILE_SECONDS == 2 * SPREAD_CELLS && interface_::TILE_PARTS == 8,
+              "eye_spread.comp has 4 x 2 invocations to a tile, and groups 8 of them in a row");
 
 vk::PipelineKey eyeKeyOf(const FrameCommands& c, const ViewTargets& targets,
                          const PlannedVolume& planned, uint32_t rays) {
@@ -281,7 +284,7 @@ class VolumeRecorder {
     if (first_ && !onlyTilesSeen(c_, targets_)) {
       c_.dispatchIndirect(c_.find(clearKey(spread_.distance)), lists(),
                           4 * VkDeviceSize{interface_::CLEAR_LIST}, eye, index);
-      c_.orderShaders();
+      c_.orderShaders();  // one reads the buffer of lists, the other writes
     }
     c_.dispatchIndirect(c_.find(spreadKey(interface_::SPREAD_TO_PIXELS, spread_)), lists(),
                         4 * VkDeviceSize{interface_::TILE_LIST}, eye, index);
