@@ -129,7 +129,7 @@ double awaitNearCores() {
   constexpr double NEAR_ns = 80.0;
   constexpr double ALIKE = 1.35;
   constexpr std::chrono::milliseconds NAP{50};
-  static int naps = 1200;
+  static int naps = 1600;
   static double least_ns = std::numeric_limits<double>::infinity();
   for (;; --naps) {
     const double handover = coreHandover_ns();

@@ -138,7 +138,7 @@ void measure(const Options& options) {
         return errors.is_null() ? NAN : errors.at("rmseOverMean").get<double>();
       };
       std::printf("%-16s %-18s %9.3f %8.4f %8.4f %8.4f %12llu %10.3g %10.3g %10.3g\n", "",
-                  row.method.name.c_str(), row.timing.wall, row.timing.ratio,
+                  row.method.name.c_str(), row.timing.wall, row.timing.relative,
                   row.timing.medianRatioLow, row.timing.medianRatioHigh,
                   static_cast<unsigned long long>(row.counts.invocations), figure(row.truth),
                   figure(row.single), figure(row.converged));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
+#include <numeric>
 
 #include "bench/driver_threads.hpp"
 
@@ -91,6 +92,13 @@ double least(const std::vector<Sample>& samples, double Sample::*time) {
   return result;
 }
 
+double fastThirdOf(const std::vector<Sample>& samples, double Sample::*time) {
+  std::vector<double> times = column(samples, time);
+  std::sort(times.begin(), times.end());
+  times.resize(std::max<size_t>(times.size() / 3, 1));
+  return std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size());
+}
+
 bool isUnsure(const std::vector<Sample>& samples) {
   std::vector<double> walls = column(samples, &Sample::wall);
   std::sort(walls.begin(), walls.end());
@@ -113,6 +121,8 @@ Timing summarise(const std::vector<Sample>& samples, const std::vector<Sample>& 
   timing.leastCpu = least(samples, &Sample::cpu);
   timing.ratio = timing.fastest / least(anchorEver, &Sample::wall);
   timing.cpuRatio = timing.leastCpu / least(anchorEver, &Sample::cpu);
+  timing.fastThird = fastThirdOf(samples, &Sample::wall);
+  timing.fastThirdCpu = fastThirdOf(samples, &Sample::cpu);
   const std::vector<double> byRound = ratios(samples, anchor);
   timing.medianRatio = medianOf(byRound);
   // The count of samples below the median is binomial: n/2 +- 1.96 sqrt(n)/2.
@@ -122,6 +132,23 @@ Timing summarise(const std::vector<Sample>& samples, const std::vector<Sample>& 
   timing.medianRatioLow = byRound[skip];
   timing.medianRatioHigh = byRound[byRound.size() - 1 - skip];
   return timing;
+}
+
+double geometricMean(const std::vector<Timing>& timings, double Timing::*time) {
+  double sum = 0.0;
+  for (const Timing& timing : timings) {
+    sum += std::log(timing.*time);
+  }
+  return std::exp(sum / static_cast<double>(timings.size()));
+}
+
+void relate(std::vector<Timing>& timings) {
+  const double wall = geometricMean(timings, &Timing::fastThird);
+  const double cpu = geometricMean(timings, &Timing::fastThirdCpu);
+  for (Timing& timing : timings) {
+    timing.relative = timing.fastThird / wall;
+    timing.relativeCpu = timing.fastThirdCpu / cpu;
+  }
 }
 
 // How one method is timed.
@@ -220,6 +247,7 @@ std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor
     timings.push_back(summarise(samples[i], anchors[i], samples[anchor]));
     timings.back().handover_ns = medianOf(handovers);
   }
+  relate(timings);
   return timings;
 }
 

@@ -22,6 +22,13 @@ struct Timing {
   /// frames alike, so that medians of ratios differ between runs.
   double ratio = 1.0;
   double cpuRatio = 1.0;
+  /// Mean of the fastest third of the rounds. ms.
+  double fastThird = 0.0;
+  double fastThirdCpu = 0.0;
+  /// Those over their geometric mean of all methods: a yardstick of the same run, which no single
+  /// method shifts.
+  double relative = 1.0;
+  double relativeCpu = 1.0;
   /// Median over the rounds of time / anchor's time in that round; low and high: order statistics
   /// that hold the median with 95 % confidence (all rounds if there are fewer than six).
   double medianRatio = 1.0;

@@ -34,6 +34,19 @@ TEST(FrontTiming, RatioIsThatOfTheFastestRounds) {
   EXPECT_GE(timings[1].medianRatioHigh, timings[1].medianRatio);
 }
 
+// Every third round is held up: the fastest third is not. Two methods a factor of 4 apart stand a
+// factor of 2 to both sides of their geometric mean.
+TEST(FrontTiming, RelativeTimesAreOfTheFastestThirdAndOfAllMethods) {
+  size_t calls = 0;
+  const Copies one = {[] { return spin(10.0); }};
+  const Copies other = {[&calls] { return spin(calls++ % 3 == 0 ? 90.0 : 40.0); }};
+  const std::vector<Timing> timings = interleave({one, other}, 0, 1, 6);
+  EXPECT_NEAR(timings[1].fastThird, 40.0, 40.0 * FOUND);
+  EXPECT_NEAR(timings[0].relative, 0.5, 0.5 * FOUND);
+  EXPECT_NEAR(timings[1].relative, 2.0, 2.0 * FOUND);
+  EXPECT_NEAR(timings[0].relativeCpu * timings[1].relativeCpu, 1.0, 1e-9);
+}
+
 TEST(FrontTiming, ShortFramesAreRepeated) {
   size_t calls = 0;
   const Copies anchor = {[&calls] {
