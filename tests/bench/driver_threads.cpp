@@ -124,17 +124,15 @@ double coreHandover_ns() {
 }
 
 double awaitNearCores() {
-  // Cores that share a cache take 20 to 60 ns, others 100 and more; and what the same two take
-  // differs by a fifth unless the cache is slower for a while.
-  constexpr double NEAR_ns = 80.0;
+  // What two near cores take differs by a fifth unless the cache is slower for a while.
   constexpr double ALIKE = 1.35;
   constexpr std::chrono::milliseconds NAP{50};
-  static int naps = 1600;
+  static int naps = 1200;
   static double least_ns = std::numeric_limits<double>::infinity();
   for (;; --naps) {
     const double handover = coreHandover_ns();
     least_ns = std::min(least_ns, handover);
-    if (naps == 0 || handover <= std::min(NEAR_ns, ALIKE * least_ns)) {
+    if (naps == 0 || handover <= std::min(NEAR_CORES_ns, ALIKE * least_ns)) {
       return handover;
     }
     std::this_thread::sleep_for(NAP);

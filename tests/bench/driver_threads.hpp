@@ -13,6 +13,9 @@ namespace bench {
 /// drivers. Call it when all devices are there; threads made later are left alone.
 size_t pinDriverThreads();
 
+/// Handovers of cores that share a cache are below this (20 to 60), of others above (100 and more).
+constexpr double NEAR_CORES_ns = 80.0;
+
 /// What one core waits for a word that another one writes, ns: the process' first two cores; 0 with
 /// a single one.
 double coreHandover_ns();

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "bench/driver_threads.hpp"
 #include "bench/front_contract.hpp"
 #include "bench/front_report.hpp"
 #include "common/error.hpp"
@@ -124,15 +125,21 @@ void measure(const Options& options) {
   study.referenceFolder = options.references;
   Ordered report = reportHead(options.commit, study.rounds, options.quick);
   const auto start = std::chrono::steady_clock::now();
-  for (const Case& one : chosenCases(options)) {
+  const auto spent_s = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  const std::vector<Case> cases = chosenCases(options);
+  std::vector<std::vector<Ordered>> rows(cases.size());
+  const auto visit = [&](size_t index) {
+    const Case& one = cases[index];
     const Study result = studyCase(one, study, [&](const std::string& step) {
-      const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start;
-      std::fprintf(stderr, "%5.0f s %s: %s\n", since.count(), one.name.c_str(), step.c_str());
+      std::fprintf(stderr, "%5.0f s %s: %s\n", spent_s(), one.name.c_str(), step.c_str());
     });
     report["device"] = result.device;
     std::printf("%-16s %-18s %9s %8s %8s %8s %12s %10s %10s %10s\n", one.name.c_str(), "method",
                 "ms", "ratio", "med low", "med high", "invocations", "truth", "single",
                 "converged");
+    rows[index].clear();
     for (const Row& row : result.rows) {
       const auto figure = [](const Ordered& errors) {
         return errors.is_null() ? NAN : errors.at("rmseOverMean").get<double>();
@@ -142,15 +149,35 @@ void measure(const Options& options) {
                   row.timing.medianRatioLow, row.timing.medianRatioHigh,
                   static_cast<unsigned long long>(row.counts.invocations), figure(row.truth),
                   figure(row.single), figure(row.converged));
-      report["rows"].push_back(reportRow(one, row));
+      rows[index].push_back(reportRow(one, row));
     }
     std::fflush(stdout);
+    report["rows"] = Ordered::array();
+    for (const std::vector<Ordered>& ofCase : rows) {
+      for (const Ordered& row : ofCase) {
+        report["rows"].push_back(row);
+      }
+    }
     // After every case: a run that is cut short leaves what it has.
     if (!options.json.empty()) {
       writeJson(options.json, report);
     }
     if (!options.csv.empty()) {
       writeCsv(options.csv, report["rows"]);
+    }
+    return result.rows.front().timing.handover_ns > NEAR_CORES_ns;
+  };
+  std::vector<size_t> far;
+  for (size_t i = 0; i < cases.size(); ++i) {
+    if (visit(i)) {
+      far.push_back(i);
+    }
+  }
+  // Cores do not stay far apart for long. A visit anew takes half a minute at most.
+  constexpr double QUICK_UNTIL_s = 400.0;
+  for (const size_t i : far) {
+    if (!options.quick || spent_s() < QUICK_UNTIL_s) {
+      visit(i);
     }
   }
 }
