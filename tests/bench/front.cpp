@@ -173,7 +173,8 @@ void measure(const Options& options) {
       far.push_back(i);
     }
   }
-  // Cores do not stay far apart for long. A visit anew takes half a minute at most.
+  // Cores do not stay far apart for long. A quick visit takes 5 to 50 s, the rest of tools/bench
+  // two minutes and a half.
   constexpr double QUICK_UNTIL_s = 400.0;
   for (const size_t i : far) {
     if (!options.quick || spent_s() < QUICK_UNTIL_s) {

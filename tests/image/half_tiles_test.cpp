@@ -53,8 +53,8 @@ void addSparse(const SceneBuilder& scene, const std::array<double, 3>& lo, doubl
   scene.upload(volume, size, sparse());
 }
 
-// Voxels of 2.1 pixels at the far end, where rays begin with every fourth pixel, and of less than
-// 1, where they do with every second one.
+// Voxels of 2.1 pixels at the far end, where rays begin with every fourth pixel, and of 1.1, where
+// they do with every second one.
 constexpr std::array<double, 3> COARSE{-2250, -2250, -5200};
 constexpr double COARSE_EDGE = 4500;
 constexpr std::array<double, 3> FINE{-300, -1300, -4500};
