@@ -89,17 +89,5 @@ TEST(DriverThreads, OtherDriversAreLeftAlone) {
   EXPECT_EQ(pool.cores(0), static_cast<int>(coresOfThisThread().size()));
 }
 
-TEST(DriverThreads, HandoverIsThatOfTwoCores) {
-  // A line moves between two cores in no less than a few ns; 100 us are a scheduler's, not a
-  // cache's.
-  const double handover = coreHandover_ns();
-  if (coresOfThisThread().size() < 2) {
-    EXPECT_EQ(handover, 0.0);
-    return;
-  }
-  EXPECT_GT(handover, 2.0);
-  EXPECT_LT(handover, 1e5);
-}
-
 }  // namespace
 }  // namespace bench

@@ -110,24 +110,14 @@ class Limits {
   std::map<std::pair<uint32_t, bool>, Reference> limits_;
 };
 
-}  // namespace
-
-Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell) {
-  tell("scene");
-  Worlds worlds(one);
+// Pictures and counts of all methods.
+std::vector<Row> measureRows(const Case& one, const StudyOptions& options, Worlds& worlds,
+                             const Tell& tell) {
   const bool hasVolumes = !worlds.of({}).scene().volumes.empty();
   const References references = readReferences(options.referenceFolder, one);
   Limits limits(worlds, options, references.converged);
   const std::vector<Method> methods =
       options.levelsOnly ? levelMethods() : methodsFor(one, hasVolumes, options.quick);
-
-  Study study;
-  const WlkCapabilities device = worlds.of({}).capabilities();
-  study.device = {{"name", std::string(device.deviceName)},
-                  {"driver", "Vulkan " + std::to_string(device.vulkanVersion >> 22 & 0x7fu) + "." +
-                                 std::to_string(device.vulkanVersion >> 12 & 0x3ffu) + "." +
-                                 std::to_string(device.vulkanVersion & 0xfffu)}};
-  size_t anchor = 0;
   std::vector<size_t> order(methods.size());
   std::iota(order.begin(), order.end(), size_t{0});
   std::stable_partition(order.begin(), order.end(),
@@ -138,6 +128,7 @@ Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell) 
     const Method& method = methods[i];
     shots[i] = shoot(worlds, qualityOf(method), method.settings, staysForTiming(method));
   }
+  std::vector<Row> rows;
   for (size_t i = 0; i < methods.size(); ++i) {
     const Method& method = methods[i];
     const Shot& shot = shots[i];
@@ -149,17 +140,23 @@ Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell) 
     if (hasVolumes) {
       row.converged = errorsOf(shot.picture, limits.of(method.settings), one);
     }
-    anchor = method.name == ANCHOR ? study.rows.size() : anchor;
-    study.rows.push_back(std::move(row));
+    rows.push_back(std::move(row));
   }
+  return rows;
+}
 
-  tell("times");
+void timeRows(const Case& one, const StudyOptions& options, Worlds& worlds,
+              std::vector<Row>& rows) {
+  const bool hasVolumes = !worlds.of({}).scene().volumes.empty();
   const uint32_t usual = hasVolumes ? TIMED_WIDTH_VOLUMES : TIMED_WIDTH;
   const uint32_t width = std::max(usual, one.timedWidth);
   const uint32_t scale = (width + one.width - 1) / one.width;
   const host::RasterResult opaque = worlds.of({}).makeOpaque(scale);
   std::vector<Copies> frames;
-  for (const Method& method : methods) {
+  size_t anchor = 0;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const Method& method = rows[i].method;
+    anchor = method.name == ANCHOR ? i : anchor;
     World& world = worlds.of(method.settings);
     Copies& copies = frames.emplace_back();
     for (size_t copy = 0; copy < COPIES; ++copy) {
@@ -170,15 +167,40 @@ Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell) 
       });
     }
   }
-  for (const Method& method : methods) {
-    worlds.of(method.settings).prepare();
+  for (const Row& row : rows) {
+    worlds.of(row.method.settings).prepare();
   }
   const std::vector<Timing> timings = interleave(frames, anchor, WARM_UPS, options.rounds);
-  for (size_t i = 0; i < methods.size(); ++i) {
-    study.rows[i].timing = timings[i];
-    study.rows[i].timedScale = scale;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    rows[i].timing = timings[i];
+    rows[i].timedScale = scale;
   }
+}
+
+}  // namespace
+
+Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell,
+                const Study* before) {
+  tell("scene");
+  Worlds worlds(one);
+  const WlkCapabilities device = worlds.of({}).capabilities();
+  Study study;
+  study.device = {{"name", std::string(device.deviceName)},
+                  {"driver", "Vulkan " + std::to_string(device.vulkanVersion >> 22 & 0x7fu) + "." +
+                                 std::to_string(device.vulkanVersion >> 12 & 0x3ffu) + "." +
+                                 std::to_string(device.vulkanVersion & 0xfffu)}};
+  study.rows = before != nullptr ? before->rows : measureRows(one, options, worlds, tell);
+  tell("times");
+  timeRows(one, options, worlds, study.rows);
   return study;
+}
+
+size_t quietRows(const Study& study) {
+  constexpr size_t ENOUGH = 3;
+  return static_cast<size_t>(
+      std::count_if(study.rows.begin(), study.rows.end(), [](const Row& row) {
+        return row.timing.quietRounds >= ENOUGH && areQuiet(row.timing.cores);
+      }));
 }
 
 }  // namespace bench

@@ -39,6 +39,11 @@ struct Study {
 /// Told before each slow step.
 using Tell = std::function<void(const std::string&)>;
 
-Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell);
+/// `before`: an earlier study of the case, whose errors and counts are taken over.
+Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell,
+                const Study* before = nullptr);
+
+/// Rows timed on cores that were quiet, as far as the process knows by now.
+size_t quietRows(const Study& study);
 
 }  // namespace bench

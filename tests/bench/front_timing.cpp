@@ -5,9 +5,12 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <iterator>
 #include <limits>
 #include <numeric>
+#include <utility>
 
+#include "bench/cores.hpp"
 #include "bench/driver_threads.hpp"
 
 namespace bench {
@@ -18,7 +21,7 @@ namespace {
 constexpr double MIN_ROUND_ms = 10.0;
 constexpr size_t MAX_REPEATS = 64;
 // Cheap scenes get more rounds, up to MORE_ROUNDS times as many.
-constexpr double MIN_STUDY_ms = 3000.0;
+constexpr double MIN_STUDY_ms = 2000.0;
 constexpr size_t MORE_ROUNDS = 7;
 // Warm-ups of a copy end when they took this long, the first frame of all, which compiles, left
 // out: what is made once is then a small part of a frame.
@@ -29,17 +32,24 @@ constexpr double LONG_FIRST_ms = 1000.0;
 // round.
 constexpr double LONG_ROUND = 6.0;
 constexpr size_t MAX_STRIDE = 2;
-// A method whose fastest rounds, CONFIRMED of them, differ by more than this (last / first) is
-// timed in more rounds, up to UNSURE_ROUNDS times as many as were asked for, long ones up to as
+// A method whose fastest quiet rounds, CONFIRMED of them, differ by more than this (last / first)
+// is timed in more rounds, up to UNSURE_ROUNDS times as many as were asked for, long ones up to as
 // many.
 constexpr size_t CONFIRMED = 3;
 constexpr double UNSURE = 1.02;
 constexpr size_t UNSURE_ROUNDS = 2;
+// Unless so many rounds had nothing quiet.
+constexpr size_t LOUD_ROUNDS = 3;
+
+// All rounds of a set of methods wait so long for quiet cores.
+constexpr double PATIENCE_ms = 2500.0;
 
 struct Sample {
   double wall = 0.0;
   double cpu = 0.0;
   double gpu = 0.0;
+  /// The worse before and after.
+  CoreState cores;
 };
 
 double wallClock_ms() {
@@ -66,6 +76,31 @@ Sample timeFrames(const RenderFrame& frame, size_t repeats) {
   const auto count = static_cast<double>(repeats);
   return {sample.wall / count, sample.cpu / count, sample.gpu / count};
 }
+
+// Cores between samples.
+class Cores {
+ public:
+  explicit Cores(ProbeCores probe) : probe_(std::move(probe)), state_(probe_(0.0)) {}
+  // Waits for quiet cores as long as patience lasts.
+  void await() {
+    if (!areQuiet(state_)) {
+      const double start = wallClock_ms();
+      state_ = probe_(patience_ms_);
+      patience_ms_ = std::max(patience_ms_ - (wallClock_ms() - start), 0.0);
+    }
+  }
+  // The worse of before and after what was done since the call before.
+  CoreState around() {
+    const CoreState before = std::exchange(state_, probe_(0.0));
+    return {std::max(before.handover_ns, state_.handover_ns),
+            std::max(before.work_ns, state_.work_ns)};
+  }
+
+ private:
+  ProbeCores probe_;
+  CoreState state_;
+  double patience_ms_ = PATIENCE_ms;
+};
 
 std::vector<double> ratios(const std::vector<Sample>& samples, const std::vector<Sample>& anchor) {
   std::vector<double> result;
@@ -99,8 +134,25 @@ double fastThirdOf(const std::vector<Sample>& samples, double Sample::*time) {
   return std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size());
 }
 
+std::vector<Sample> quietOf(const std::vector<Sample>& samples) {
+  std::vector<Sample> quiet;
+  std::copy_if(samples.begin(), samples.end(), std::back_inserter(quiet),
+               [](const Sample& sample) { return areQuiet(sample.cores); });
+  return quiet;
+}
+
+CoreState typical(const std::vector<Sample>& samples) {
+  std::vector<double> handovers;
+  std::vector<double> works;
+  for (const Sample& sample : samples) {
+    handovers.push_back(sample.cores.handover_ns);
+    works.push_back(sample.cores.work_ns);
+  }
+  return {medianOf(handovers), medianOf(works)};
+}
+
 bool isUnsure(const std::vector<Sample>& samples) {
-  std::vector<double> walls = column(samples, &Sample::wall);
+  std::vector<double> walls = column(quietOf(samples), &Sample::wall);
   std::sort(walls.begin(), walls.end());
   return walls.size() < CONFIRMED || walls[CONFIRMED - 1] > UNSURE * walls.front();
 }
@@ -121,8 +173,13 @@ Timing summarise(const std::vector<Sample>& samples, const std::vector<Sample>& 
   timing.leastCpu = least(samples, &Sample::cpu);
   timing.ratio = timing.fastest / least(anchorEver, &Sample::wall);
   timing.cpuRatio = timing.leastCpu / least(anchorEver, &Sample::cpu);
-  timing.fastThird = fastThirdOf(samples, &Sample::wall);
-  timing.fastThirdCpu = fastThirdOf(samples, &Sample::cpu);
+  const std::vector<Sample> quiet = quietOf(samples);
+  const std::vector<Sample>& best = quiet.size() < CONFIRMED ? samples : quiet;
+  timing.fastThird = fastThirdOf(best, &Sample::wall);
+  timing.fastThirdCpu = fastThirdOf(best, &Sample::cpu);
+  timing.rounds = samples.size();
+  timing.quietRounds = quiet.size();
+  timing.cores = typical(best);
   const std::vector<double> byRound = ratios(samples, anchor);
   timing.medianRatio = medianOf(byRound);
   // The count of samples below the median is binomial: n/2 +- 1.96 sqrt(n)/2.
@@ -190,8 +247,11 @@ double medianOf(std::vector<double> values) {
 }
 
 std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor, size_t warmUps,
-                               size_t rounds) {
+                               size_t rounds, ProbeCores probe) {
   const bool onCores = pinDriverThreads() > 1;
+  if (!probe) {
+    probe = onCores ? awaitQuietCores : [](double) { return CoreState{}; };
+  }
   std::vector<Turn> turns;
   double round_ms = 0;
   for (size_t i = 0; i < methods.size(); ++i) {
@@ -207,16 +267,21 @@ std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor
   rounds = std::max(std::clamp(fill, rounds, MORE_ROUNDS * rounds), MAX_STRIDE);
   std::vector<std::vector<Sample>> samples(methods.size());
   std::vector<std::vector<Sample>> anchors(methods.size());  // of the same rounds
-  std::vector<double> handovers;
+  Cores cores(std::move(probe));
+  size_t loud = 0;  // rounds since there was a quiet sample
   const auto time = [&](const std::vector<size_t>& due) {
+    bool someQuiet = false;
     for (const size_t i : due) {
-      handovers.push_back(onCores ? awaitNearCores() : 0.0);
+      cores.await();
       const RenderFrame& frame = methods[i][samples[i].size() % turns[i].copies];
       samples[i].push_back(timeFrames(frame, turns[i].repeats));
+      samples[i].back().cores = cores.around();
+      someQuiet = someQuiet || areQuiet(samples[i].back().cores);
     }
     for (const size_t i : due) {
       anchors[i].push_back(samples[anchor].back());
     }
+    loud = someQuiet ? 0 : loud + 1;
   };
   for (size_t round = 0; round < rounds; ++round) {
     std::vector<size_t> due;
@@ -228,7 +293,7 @@ std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor
     }
     time(due);
   }
-  for (size_t more = 0; more < UNSURE_ROUNDS * asked; ++more) {
+  for (size_t more = 0; more < UNSURE_ROUNDS * asked && loud < LOUD_ROUNDS; ++more) {
     std::vector<size_t> due = {anchor};
     for (size_t i = 0; i < methods.size(); ++i) {
       const bool timely = more < asked || turns[i].frame_ms < LONG_ROUND * MIN_ROUND_ms;
@@ -245,7 +310,6 @@ std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor
   std::vector<Timing> timings;
   for (size_t i = 0; i < methods.size(); ++i) {
     timings.push_back(summarise(samples[i], anchors[i], samples[anchor]));
-    timings.back().handover_ns = medianOf(handovers);
   }
   relate(timings);
   return timings;

@@ -7,6 +7,8 @@
 #include <functional>
 #include <vector>
 
+#include "bench/cores.hpp"
+
 namespace bench {
 
 struct Timing {
@@ -22,7 +24,7 @@ struct Timing {
   /// frames alike, so that medians of ratios differ between runs.
   double ratio = 1.0;
   double cpuRatio = 1.0;
-  /// Mean of the fastest third of the rounds. ms.
+  /// Mean of the fastest third of the quiet rounds, of all if fewer than three were quiet. ms.
   double fastThird = 0.0;
   double fastThirdCpu = 0.0;
   /// Those over their geometric mean of all methods: a yardstick of the same run, which no single
@@ -34,8 +36,11 @@ struct Timing {
   double medianRatio = 1.0;
   double medianRatioLow = 1.0;
   double medianRatioHigh = 1.0;
-  /// Of the driver's cores, see awaitNearCores: median over the rounds; 0: not known.
-  double handover_ns = 0.0;
+  /// In all, and those with quiet cores before and after.
+  size_t rounds = 0;
+  size_t quietRounds = 0;
+  /// Median around the rounds that the fast third was taken from.
+  CoreState cores;
 };
 
 /// Renders one frame and returns its GPU time in ms.
@@ -45,12 +50,17 @@ using RenderFrame = std::function<double()>;
 /// tenth. Rounds take them in turn.
 using Copies = std::vector<RenderFrame>;
 
+/// Waits for quiet cores no longer than so many ms; what they are like then.
+using ProbeCores = std::function<CoreState(double)>;
+
 /// Gives the driver's threads a core each, calls every copy `warmUps` times, then every method once
-/// per round, in an order that turns by one place each round and each after awaitNearCores; a frame
-/// too short to time alone is repeated and its mean taken, cheap sets of methods get more rounds,
-/// long frames miss some, and methods whose fastest rounds differ get more.
+/// per round, in an order that turns by one place each round, each when cores are quiet, until
+/// it has waited 2.5 s for that; a frame too short to time alone is repeated and its mean taken,
+/// cheap sets of methods get more rounds, long frames miss some, and methods whose fastest quiet
+/// rounds differ get more. `probe`: awaitQuietCores if there is none and the driver's threads are
+/// on several cores.
 std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor, size_t warmUps,
-                               size_t rounds);
+                               size_t rounds, ProbeCores probe = nullptr);
 
 double medianOf(std::vector<double> values);
 

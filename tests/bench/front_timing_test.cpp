@@ -47,6 +47,36 @@ TEST(FrontTiming, RelativeTimesAreOfTheFastestThirdAndOfAllMethods) {
   EXPECT_NEAR(timings[0].relativeCpu * timings[1].relativeCpu, 1.0, 1e-9);
 }
 
+// Every other frame runs beside others' work, and faster than it ever does in quiet rounds, so that
+// the fastest of all would be those.
+TEST(FrontTiming, RoundsOnLoudCoresDoNotCount) {
+  currentCores();
+  const CoreState quiet = bestCores();
+  const CoreState loud = {quiet.handover_ns, 2.0 * quiet.work_ns};
+  size_t calls = 0;
+  const Copies copies = {[&calls] { return spin(++calls % 3 == 0 ? 20.0 : 10.0); }};
+  const auto probe = [&](double) { return calls % 3 == 0 || calls % 3 == 2 ? quiet : loud; };
+  const std::vector<Timing> timings = interleave({copies}, 0, 2, 9, probe);
+  EXPECT_NEAR(timings[0].fastThird, 20.0, 20.0 * FOUND);
+  EXPECT_NEAR(timings[0].fastest, 10.0, 10.0 * FOUND);
+  EXPECT_EQ(timings[0].quietRounds, (timings[0].rounds + 2) / 3);
+  EXPECT_EQ(timings[0].cores.work_ns, quiet.work_ns);
+}
+
+TEST(FrontTiming, WithTooFewQuietRoundsAllCount) {
+  currentCores();
+  const CoreState loud = {bestCores().handover_ns, 2.0 * bestCores().work_ns};
+  size_t calls = 0;
+  const Copies copies = {[&calls] {
+    ++calls;
+    return spin(10.0);
+  }};
+  const std::vector<Timing> timings = interleave({copies}, 0, 1, 6, [&](double) { return loud; });
+  EXPECT_NEAR(timings[0].fastThird, 10.0, 10.0 * FOUND);
+  EXPECT_EQ(timings[0].quietRounds, 0u);
+  EXPECT_EQ(timings[0].cores.work_ns, loud.work_ns);
+}
+
 TEST(FrontTiming, ShortFramesAreRepeated) {
   size_t calls = 0;
   const Copies anchor = {[&calls] {
