@@ -183,7 +183,7 @@ void measure(const Options& options) {
   // Cores are loud for seconds to minutes: times of scenes that found them so are taken again, of
   // the worst first and of each once before any is taken a third time. The rest of tools/bench
   // takes two minutes and a half.
-  constexpr double QUICK_UNTIL_s = 440.0;
+  constexpr double QUICK_UNTIL_s = 420.0;
   constexpr size_t MOST_VISITS = 4;
   std::vector<size_t> visits(cases.size(), 1);
   const auto loud = [&](size_t i) {

@@ -24,7 +24,8 @@ struct Timing {
   /// frames alike, so that medians of ratios differ between runs.
   double ratio = 1.0;
   double cpuRatio = 1.0;
-  /// Mean of the fastest third of the quiet rounds, of all if fewer than three were quiet. ms.
+  /// Mean of the fastest third of the quiet rounds (two at least), of all if fewer than three were
+  /// quiet. ms.
   double fastThird = 0.0;
   double fastThirdCpu = 0.0;
   /// Those over their geometric mean of all methods: a yardstick of the same run, which no single
