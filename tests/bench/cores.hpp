@@ -44,8 +44,7 @@ bool areQuiet(const CoreState& state);
 /// Waits until the cores are quiet, no longer than that, ms, and returns what they were like at
 /// last. Hosts of virtual machines move cores between caches every few seconds to minutes (26 and
 /// 160 ns on one and the same machine, where frames that share much took 5 to 30 % longer), and let
-/// others work on them for minutes (frames took 20 to 60 % longer). No topology tells; machines
-/// whose cores never share a cache wait in vain.
+/// others work on them for minutes (frames took 20 to 60 % longer). No topology tells.
 CoreState awaitQuietCores(double patience_ms);
 
 }  // namespace bench

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <vector>
 
 namespace bench {
@@ -22,17 +23,22 @@ TEST(Cores, HandoverIsThatOfTwoCores) {
   EXPECT_LT(handover, 1e5);
 }
 
-// Whatever runs beside the test comes and goes: of many, the fastest tell. No core does 160 000
-// multiplications and additions in 2 us.
+// Whatever runs beside the test comes and goes: it looks again until it has gone. No core does
+// 160 000 multiplications and additions in 2 us.
 TEST(Cores, WorkTakesTheSameTimeAgain) {
-  constexpr size_t OFTEN = 40;
-  std::vector<double> works;
-  for (size_t i = 0; i < OFTEN; ++i) {
-    works.push_back(coreWork_ns());
+  constexpr size_t BATCHES = 100;
+  constexpr size_t OFTEN = 10;
+  bool alike = false;
+  for (size_t batch = 0; batch < BATCHES && !alike; ++batch) {
+    std::vector<double> works;
+    for (size_t i = 0; i < OFTEN; ++i) {
+      works.push_back(coreWork_ns());
+    }
+    std::sort(works.begin(), works.end());
+    EXPECT_GT(works.front(), 2000.0);
+    alike = works[OFTEN / 2] < QUIET_WORK * works.front();
   }
-  std::sort(works.begin(), works.end());
-  EXPECT_GT(works[0], 2000.0);
-  EXPECT_LT(works[3], QUIET_WORK * works[0]);
+  EXPECT_TRUE(alike);
 }
 
 TEST(Cores, QuietIsAsGoodAsEver) {
@@ -41,8 +47,18 @@ TEST(Cores, QuietIsAsGoodAsEver) {
   EXPECT_TRUE(areQuiet(best));
   EXPECT_FALSE(areQuiet({best.handover_ns, 1.2 * best.work_ns}));
   if (best.handover_ns > 0.0) {
-    EXPECT_FALSE(areQuiet({3.0 * best.handover_ns, best.work_ns}));
+    EXPECT_FALSE(areQuiet({3.0 * std::max(best.handover_ns, 25.0), best.work_ns}));
   }
+}
+
+TEST(Cores, WaitingEndsWithPatienceOrQuiet) {
+  currentCores();
+  const auto start = std::chrono::steady_clock::now();
+  awaitQuietCores(0.0);
+  const CoreState found = awaitQuietCores(5000.0);
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+  EXPECT_TRUE(areQuiet(found) || spent.count() >= 5.0);
+  EXPECT_LT(spent.count(), 10.0);
 }
 
 }  // namespace

@@ -116,6 +116,7 @@ Ordered reportRow(const Case& one, const Row& row) {
           {"medianRatioHigh", timing.medianRatioHigh},
           {"rounds", timing.rounds},
           {"quietRounds", timing.quietRounds},
+          {"quiet", isQuiet(row)},
           {"handover_ns", timing.cores.handover_ns},
           {"coreWork_ns", timing.cores.work_ns},
           {"dispatches", counts.dispatches},

@@ -189,18 +189,29 @@ Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell,
                   {"driver", "Vulkan " + std::to_string(device.vulkanVersion >> 22 & 0x7fu) + "." +
                                  std::to_string(device.vulkanVersion >> 12 & 0x3ffu) + "." +
                                  std::to_string(device.vulkanVersion & 0xfffu)}};
-  study.rows = before != nullptr ? before->rows : measureRows(one, options, worlds, tell);
+  if (before == nullptr) {
+    study.rows = measureRows(one, options, worlds, tell);
+  } else {
+    study.rows = before->rows;
+    for (const Row& row : study.rows) {
+      if (staysForTiming(row.method)) {
+        tell("light of " + row.method.name);
+        shoot(worlds, qualityOf(row.method), row.method.settings, true);
+      }
+    }
+  }
   tell("times");
   timeRows(one, options, worlds, study.rows);
   return study;
 }
 
-size_t quietRows(const Study& study) {
+bool isQuiet(const Row& row) {
   constexpr size_t ENOUGH = 3;
-  return static_cast<size_t>(
-      std::count_if(study.rows.begin(), study.rows.end(), [](const Row& row) {
-        return row.timing.quietRounds >= ENOUGH && areQuiet(row.timing.cores);
-      }));
+  return row.timing.quietRounds >= ENOUGH && areQuiet(row.timing.cores);
+}
+
+size_t quietRows(const Study& study) {
+  return static_cast<size_t>(std::count_if(study.rows.begin(), study.rows.end(), isQuiet));
 }
 
 }  // namespace bench

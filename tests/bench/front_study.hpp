@@ -43,7 +43,10 @@ using Tell = std::function<void(const std::string&)>;
 Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell,
                 const Study* before = nullptr);
 
-/// Rows timed on cores that were quiet, as far as the process knows by now.
+/// Whether it was timed on cores that were quiet, as far as the process knows by now.
+bool isQuiet(const Row& row);
+
+/// How many were.
 size_t quietRows(const Study& study);
 
 }  // namespace bench

@@ -158,28 +158,34 @@ bool isUnsure(const std::vector<Sample>& samples) {
   return walls.size() < CONFIRMED || walls[CONFIRMED - 1] > UNSURE * walls.front();
 }
 
+// In quiet rounds, or in all if those are too few.
+std::vector<Sample> bestOf(const std::vector<Sample>& samples) {
+  std::vector<Sample> quiet = quietOf(samples);
+  return quiet.size() < CONFIRMED ? samples : quiet;
+}
+
 // `anchor`: in the same rounds; `anchorEver`: in all.
 Timing summarise(const std::vector<Sample>& samples, const std::vector<Sample>& anchor,
                  const std::vector<Sample>& anchorEver) {
+  const std::vector<Sample> best = bestOf(samples);
+  const std::vector<Sample> anchorBest = bestOf(anchorEver);
   Timing timing;
-  timing.wall = medianOf(column(samples, &Sample::wall));
+  timing.wall = medianOf(column(best, &Sample::wall));
   std::vector<double> distance;
-  for (const Sample& sample : samples) {
+  for (const Sample& sample : best) {
     distance.push_back(std::abs(sample.wall - timing.wall));
   }
   timing.wallDeviation = medianOf(distance);
-  timing.cpu = medianOf(column(samples, &Sample::cpu));
-  timing.gpu = medianOf(column(samples, &Sample::gpu));
-  timing.fastest = least(samples, &Sample::wall);
-  timing.leastCpu = least(samples, &Sample::cpu);
-  timing.ratio = timing.fastest / least(anchorEver, &Sample::wall);
-  timing.cpuRatio = timing.leastCpu / least(anchorEver, &Sample::cpu);
-  const std::vector<Sample> quiet = quietOf(samples);
-  const std::vector<Sample>& best = quiet.size() < CONFIRMED ? samples : quiet;
+  timing.cpu = medianOf(column(best, &Sample::cpu));
+  timing.gpu = medianOf(column(best, &Sample::gpu));
+  timing.fastest = least(best, &Sample::wall);
+  timing.leastCpu = least(best, &Sample::cpu);
+  timing.ratio = timing.fastest / least(anchorBest, &Sample::wall);
+  timing.cpuRatio = timing.leastCpu / least(anchorBest, &Sample::cpu);
   timing.fastThird = fastThirdOf(best, &Sample::wall);
   timing.fastThirdCpu = fastThirdOf(best, &Sample::cpu);
   timing.rounds = samples.size();
-  timing.quietRounds = quiet.size();
+  timing.quietRounds = quietOf(samples).size();
   timing.cores = typical(best);
   const std::vector<double> byRound = ratios(samples, anchor);
   timing.medianRatio = medianOf(byRound);

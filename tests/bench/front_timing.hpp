@@ -11,6 +11,7 @@
 
 namespace bench {
 
+/// Of the rounds on quiet cores, of all if fewer than three were.
 struct Timing {
   /// Median over the rounds, and the median distance from it. ms.
   double wall = 0.0;
@@ -24,23 +25,23 @@ struct Timing {
   /// frames alike, so that medians of ratios differ between runs.
   double ratio = 1.0;
   double cpuRatio = 1.0;
-  /// Mean of the fastest third of the quiet rounds (two at least), of all if fewer than three were
-  /// quiet. ms.
+  /// Mean of the fastest third of the rounds, two at least. ms.
   double fastThird = 0.0;
   double fastThirdCpu = 0.0;
   /// Those over their geometric mean of all methods: a yardstick of the same run, which no single
   /// method shifts.
   double relative = 1.0;
   double relativeCpu = 1.0;
-  /// Median over the rounds of time / anchor's time in that round; low and high: order statistics
+  /// Median over all rounds of time / anchor's time in that round; low and high: order statistics
   /// that hold the median with 95 % confidence (all rounds if there are fewer than six).
   double medianRatio = 1.0;
   double medianRatioLow = 1.0;
   double medianRatioHigh = 1.0;
-  /// In all, and those with quiet cores before and after.
+  /// In all, and those with quiet cores before and after: all where nobody looked, as with one core
+  /// or a driver on none.
   size_t rounds = 0;
   size_t quietRounds = 0;
-  /// Median around the rounds that the fast third was taken from.
+  /// Median around the rounds that count; 0: nobody looked.
   CoreState cores;
 };
 
