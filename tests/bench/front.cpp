@@ -145,21 +145,11 @@ void measure(const Options& options) {
   };
   const std::vector<Case> cases = chosenCases(options);
   std::vector<Study> studies(cases.size());
-  std::vector<double> timing_s(cases.size());
   const auto visit = [&](size_t index, const Study* before) {
-    double begun_s = spent_s();
-    double again_s = 0.0;  // of the steps that timing once more takes
-    bool again = false;
-    const auto begin = [&](const std::string& step) {
-      again_s += again ? spent_s() - begun_s : 0.0;
-      again = step == "scene" || step == "times" || step == "errors of ultra";
-      begun_s = spent_s();
-      std::fprintf(stderr, "%5.0f s %s: %s\n", begun_s, cases[index].name.c_str(), step.c_str());
+    const auto tell = [&](const std::string& step) {
+      std::fprintf(stderr, "%5.0f s %s: %s\n", spent_s(), cases[index].name.c_str(), step.c_str());
     };
-    Study result = studyCase(cases[index], study, begin, before);
-    if (before == nullptr) {
-      timing_s[index] = again_s + spent_s() - begun_s;
-    }
+    Study result = studyCase(cases[index], study, tell, before);
     if (before != nullptr && quietRows(result) < quietRows(*before)) {
       result = *before;
     }
@@ -196,7 +186,7 @@ void measure(const Options& options) {
   for (;;) {
     size_t next = cases.size();
     for (size_t i = 0; i < cases.size(); ++i) {
-      const bool timely = !options.quick || spent_s() + timing_s[i] < QUICK_UNTIL_s;
+      const bool timely = !options.quick || spent_s() + studies[i].again_s < QUICK_UNTIL_s;
       const bool worse = next == cases.size() || visits[i] < visits[next] ||
                          (visits[i] == visits[next] && loud(i) > loud(next));
       if (timely && loud(i) > 0.0 && visits[i] < MOST_VISITS && worse) {

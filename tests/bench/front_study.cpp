@@ -2,6 +2,7 @@
 #include "bench/front_study.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -110,9 +111,27 @@ class Limits {
   std::map<std::pair<uint32_t, bool>, Reference> limits_;
 };
 
-// Pictures and counts of all methods.
+// s.
+class Stopwatch {
+ public:
+  void go(bool on) {
+    const Clock::time_point now = Clock::now();
+    spent_ += on_ ? now - since_ : Clock::duration{};
+    since_ = now;
+    on_ = on;
+  }
+  [[nodiscard]] double spent_s() const { return std::chrono::duration<double>(spent_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point since_;
+  Clock::duration spent_{};
+  bool on_ = false;
+};
+
+// Pictures and counts of all methods; `again` runs while what stays is made.
 std::vector<Row> measureRows(const Case& one, const StudyOptions& options, Worlds& worlds,
-                             const Tell& tell) {
+                             Stopwatch& again, const Tell& tell) {
   const bool hasVolumes = !worlds.of({}).scene().volumes.empty();
   const References references = readReferences(options.referenceFolder, one);
   Limits limits(worlds, options, references.converged);
@@ -126,7 +145,9 @@ std::vector<Row> measureRows(const Case& one, const StudyOptions& options, World
   for (const size_t i : order) {
     tell("errors of " + methods[i].name);
     const Method& method = methods[i];
+    again.go(staysForTiming(method));
     shots[i] = shoot(worlds, qualityOf(method), method.settings, staysForTiming(method));
+    again.go(false);
   }
   std::vector<Row> rows;
   for (size_t i = 0; i < methods.size(); ++i) {
@@ -182,7 +203,10 @@ void timeRows(const Case& one, const StudyOptions& options, Worlds& worlds,
 Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell,
                 const Study* before) {
   tell("scene");
+  Stopwatch again;
+  again.go(true);
   Worlds worlds(one);
+  again.go(false);
   const WlkCapabilities device = worlds.of({}).capabilities();
   Study study;
   study.device = {{"name", std::string(device.deviceName)},
@@ -190,24 +214,28 @@ Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell,
                                  std::to_string(device.vulkanVersion >> 12 & 0x3ffu) + "." +
                                  std::to_string(device.vulkanVersion & 0xfffu)}};
   if (before == nullptr) {
-    study.rows = measureRows(one, options, worlds, tell);
+    study.rows = measureRows(one, options, worlds, again, tell);
   } else {
     study.rows = before->rows;
     for (const Row& row : study.rows) {
       if (staysForTiming(row.method)) {
         tell("light of " + row.method.name);
+        again.go(true);
         shoot(worlds, qualityOf(row.method), row.method.settings, true);
+        again.go(false);
       }
     }
   }
   tell("times");
+  again.go(true);
   timeRows(one, options, worlds, study.rows);
+  again.go(false);
+  study.again_s = again.spent_s();
   return study;
 }
 
 bool isQuiet(const Row& row) {
-  constexpr size_t ENOUGH = 3;
-  return row.timing.quietRounds >= ENOUGH && areQuiet(row.timing.cores);
+  return row.timing.quietRounds >= ENOUGH_QUIET && areQuiet(row.timing.cores);
 }
 
 size_t quietRows(const Study& study) {

@@ -34,6 +34,8 @@ struct Row {
 struct Study {
   std::vector<Row> rows;
   Ordered device;
+  /// What timing it once more takes, as far as this time tells.
+  double again_s = 0.0;
 };
 
 /// Told before each slow step.

@@ -35,7 +35,7 @@ constexpr size_t MAX_STRIDE = 2;
 // A method whose fastest quiet rounds, CONFIRMED of them, differ by more than this (last / first)
 // is timed in more rounds, up to UNSURE_ROUNDS times as many as were asked for, long ones up to as
 // many.
-constexpr size_t CONFIRMED = 3;
+constexpr size_t CONFIRMED = ENOUGH_QUIET;
 constexpr double UNSURE = 1.02;
 constexpr size_t UNSURE_ROUNDS = 2;
 // Unless so many rounds had nothing quiet.
@@ -161,7 +161,7 @@ bool isUnsure(const std::vector<Sample>& samples) {
 // In quiet rounds, or in all if those are too few.
 std::vector<Sample> bestOf(const std::vector<Sample>& samples) {
   std::vector<Sample> quiet = quietOf(samples);
-  return quiet.size() < CONFIRMED ? samples : quiet;
+  return quiet.size() < ENOUGH_QUIET ? samples : quiet;
 }
 
 // `anchor`: in the same rounds; `anchorEver`: in all.

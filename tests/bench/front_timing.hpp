@@ -11,7 +11,10 @@
 
 namespace bench {
 
-/// Of the rounds on quiet cores, of all if fewer than three were.
+/// So many rounds on quiet cores are enough to leave the others out.
+constexpr size_t ENOUGH_QUIET = 3;
+
+/// Of the rounds on quiet cores, of all if those are fewer than ENOUGH_QUIET.
 struct Timing {
   /// Median over the rounds, and the median distance from it. ms.
   double wall = 0.0;
@@ -28,8 +31,8 @@ struct Timing {
   /// Mean of the fastest third of the rounds, two at least. ms.
   double fastThird = 0.0;
   double fastThirdCpu = 0.0;
-  /// Those over their geometric mean of all methods: a yardstick of the same run, which no single
-  /// method shifts.
+  /// Those over their geometric mean of all methods: a yardstick of the same run, which hardly
+  /// follows a single one of many.
   double relative = 1.0;
   double relativeCpu = 1.0;
   /// Median over all rounds of time / anchor's time in that round; low and high: order statistics
