@@ -56,7 +56,7 @@ struct SurfaceSeen {
   float lost;     // what detail takes of the metres between it and the light
   float green;
   float blue;
-  float range;    // from the eye, m; in place of the chord, which is above 0 as well
+  float range;    // from the eye, m
   float red;
 };
 // Its words.
@@ -76,10 +76,9 @@ const uint SURFACE_LANES = 64u;   // triangles of a workgroup
 const uint SURFACE_ROW = 32768u;  // workgroups along x
 const uint SURFACE_CELL = 4u;     // pixels along an edge that one lane lists
 // The buffer of a view's lists, in uints: for each list the groups of its dispatch along three
-// axes, the first of which serves any length, and how many pixels it has; four for each second
-// pixel of the view along both axes, what these see; a pixel x + 65536 y for each of the view, that
-// of second pixels from the front, the others from the back; and the list of pixels that need
-// their own light, as long.
+// axes, the first of which serves any length, and how many pixels it has; a pixel x + 65536 y for
+// each of the view, that of second pixels from the front, the others from the back; and the list of
+// pixels that need their own light, as long.
 const uint SURFACE_LIST_SECONDS = 0u;
 const uint SURFACE_LIST_OTHERS = 1u;
 const uint SURFACE_LIST_OWN = 2u;

@@ -75,6 +75,9 @@ void main() {
   list(corner, covered & SECONDS, SURFACE_LIST_SECONDS);
   if (HALF) {
     list(corner, covered & ~SECONDS, SURFACE_LIST_OTHERS);
+    for (uint seconds = others & SECONDS; seconds != 0u; seconds &= seconds - 1u) {
+      imageStore(secondStore, pixelOf(corner, uint(findLSB(seconds))) / 2, vec4(0.0f));
+    }
   }
   while (others != 0u) {
     pass(pixelOf(corner, uint(findLSB(others))));

@@ -2,25 +2,21 @@
 // The lists of pixels that a surface covers, see SURFACE_LIST_HEAD. Before: surface_mesh.glsl,
 // `frame`.
 layout(set = 0, binding = 26, std430) buffer List { uint listed[]; };
-// The same buffer.
-layout(set = 0, binding = 26, std430) buffer Seconds { vec4 secondLight[]; };
+// Of second pixels along both axes: light scattered more than once, and how far away its point is;
+// 0 where the surface does not cover them. Fetches cost drivers such as lavapipe a third of words
+// of buffers.
+layout(set = 0, binding = 28, rgba32f) writeonly uniform image2D secondStore;
+layout(set = 0, binding = 29) uniform sampler2D secondLight;
 
 uint coverIndex(ivec2 pixel) {
   return uint(pixel.y - surface.rect.y) * uint(surface.rect.z - surface.rect.x) +
          uint(pixel.x - surface.rect.x);
 }
 
-// In secondLight, of a pixel with even coordinates.
-uint secondAddress(ivec2 pixel) {
-  uint row = uint(frame.viewport.x) / 2u + 1u;
-  return SURFACE_LIST_HEAD / 4u + uint(pixel.y / 2) * row + uint(pixel.x / 2);
-}
-
 // Where a list's pixel with this number is kept.
 uint listAddress(uint list, uint number) {
-  uvec2 view = uvec2(frame.viewport.xy);
-  uint first = SURFACE_LIST_HEAD + 4u * (view.x / 2u + 1u) * (view.y / 2u + 1u);
-  uint pixels = view.x * view.y;
+  uint first = SURFACE_LIST_HEAD;
+  uint pixels = uint(frame.viewport.x) * uint(frame.viewport.y);
   uint forward = first + number + (list == SURFACE_LIST_OWN ? pixels : 0u);
   return list == SURFACE_LIST_OTHERS ? first + pixels - 1u - number : forward;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Texels of a surface's light map from what its triangles cover, and three levels of means above.
+// Texels of a surface's light map from what its triangles cover, and four levels of means above.
 // Texels of the levels follow each other, coarser ones last; copies make images of them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -12,15 +12,17 @@ layout(constant_id = 7) const bool DETAIL = true;
 #include "surface_mesh.glsl"
 #include "surface_shell.glsl"
 #include "../interface/slices.glsl"
-layout(set = 0, binding = 7, std430) writeonly buffer Depths { vec4 depths[]; };
 layout(set = 0, binding = 8, std430) readonly buffer Faces { SurfaceFaces faces[]; };
 layout(set = 0, binding = 9, std430) buffer Levels { vec4 levels[]; };
+layout(set = 0, binding = 27, rgba32f) writeonly uniform image2D depths;
 layout(push_constant) uniform Push { SliceConstants slice; };
 
 struct MapTexel {
   vec4 column;  // coverage, through (m), x and y of the lit face's normal
   vec4 face;    // z of that; x and y of the shaded face's; depth of the lit face, m
 };
+
+const uint MAP_LEVELS = 4u;  // above the one at hand
 
 shared vec4 columns[64];
 shared vec4 sides[64];
@@ -53,7 +55,7 @@ MapTexel fromTriangles(uvec2 texel, uint size) {
   MapTexel result;
   result.column = vec4(0.0f);
   result.face = vec4(0.0f);
-  depths[at] = vec4(0.0f);
+  vec4 depth = vec4(0.0f);
   if (cover.chord > 0 && cover.front != 0u) {
     uint lit = faces[at].lit;
     uint shaded = faces[at].shaded;
@@ -81,8 +83,9 @@ MapTexel fromTriangles(uvec2 texel, uint size) {
       result.column = vec4(1.0f, through, near.xy);
       result.face = vec4(near.z, far.xy, inside.front);
     }
-    depths[at] = vec4(inside.front, inside.leave, inside.back, inside.chord);
+    depth = vec4(inside.front, inside.leave, inside.back, inside.chord);
   }
+  imageStore(depths, ivec2(texel), depth);
   return result;
 }
 
@@ -92,35 +95,45 @@ void store(uint row, MapTexel texel) {
 }
 
 // slice.lightSize: texels along an edge of the level at hand; firstSlab: row its texels begin at;
-// slabCount: rows of all levels, behind which the faces' begin.
+// slabCount: rows of all levels, behind which the faces' begin. An invocation takes four texels and
+// has their mean at hand: drivers such as lavapipe take all lanes through the levels above, which
+// few of them have anything to do with.
 void main() {
   uint size = slice.lightSize;
-  uvec2 texel = gl_GlobalInvocationID.xy;
+  uint half_ = size / 2u;
+  uvec2 block = gl_GlobalInvocationID.xy;
   uint lane = gl_LocalInvocationIndex;
   MapTexel mean;
   mean.column = vec4(0.0f);
   mean.face = vec4(0.0f);
   uint first = slice.firstSlab;
-  if (texel.x < size && texel.y < size) {
-    uint row = first + texel.y * size + texel.x;
-    if (FROM_LEVEL) {
-      mean.column = levels[row];
-      mean.face = levels[slice.slabCount + row];
-    } else {
-      mean = fromTriangles(texel, size);
-      store(row, mean);
+  if (block.x < half_ && block.y < half_) {
+    for (uint corner = 0u; corner < 4u; ++corner) {
+      uvec2 texel = 2u * block + uvec2(corner & 1u, corner >> 1u);
+      uint row = first + texel.y * size + texel.x;
+      MapTexel one;
+      if (FROM_LEVEL) {
+        one.column = levels[row];
+        one.face = levels[slice.slabCount + row];
+      } else {
+        one = fromTriangles(texel, size);
+        store(row, one);
+      }
+      mean.column += 0.25f * one.column;
+      mean.face += 0.25f * one.face;
     }
+    store(first + size * size + block.y * half_ + block.x, mean);
   }
   columns[lane] = mean.column;
   sides[lane] = mean.face;
-  for (uint level = 1u; level <= 3u; ++level) {
+  for (uint level = 2u; level <= MAP_LEVELS; ++level) {
     memoryBarrierShared();
     barrier();
     first += size * size;
     size /= 2u;
-    uint edge = 8u >> level;
+    uint edge = 16u >> level;
     uvec2 here = uvec2(lane % edge, lane / edge);
-    bool mine = lane < edge * edge && size > 0u;
+    bool mine = lane < edge * edge && size > 1u;
     if (mine) {
       uint corner = 4u * edge * here.y + 2u * here.x;
       mean.column = 0.25f * (columns[corner] + columns[corner + 1u] + columns[corner + 2u * edge] +
@@ -128,8 +141,9 @@ void main() {
       mean.face = 0.25f * (sides[corner] + sides[corner + 1u] + sides[corner + 2u * edge] +
                            sides[corner + 2u * edge + 1u]);
       uvec2 place = gl_WorkGroupID.xy * edge + here;
-      if (place.x < size && place.y < size) {
-        store(first + place.y * size + place.x, mean);
+      uint above = size / 2u;
+      if (place.x < above && place.y < above) {
+        store(first + size * size + place.y * above + place.x, mean);
       }
     }
     memoryBarrierShared();

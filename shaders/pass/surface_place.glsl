@@ -5,7 +5,7 @@
 // Where a point lies in a light map: the first of four texels around it and the part of the way to
 // the next ones; and its depth along the light, m.
 struct MapPlace {
-  uint first;
+  ivec2 first;
   vec2 part;
   float depth;
 };
@@ -15,7 +15,7 @@ MapPlace mapPlace(vec4 x, vec4 y, vec4 z, vec4 map, vec3 p) {
   vec2 texel = clamp(vec2(dot(x, q), dot(y, q)) * map.z - 0.5f, vec2(0.0f), vec2(map.z - 1.001f));
   vec2 low = floor(texel);
   MapPlace place;
-  place.first = uint(low.y) * uint(map.z) + uint(low.x);
+  place.first = ivec2(low);
   place.part = texel - low;
   place.depth = dot(z, q);
   return place;
@@ -23,7 +23,11 @@ MapPlace mapPlace(vec4 x, vec4 y, vec4 z, vec4 map, vec3 p) {
 
 // Metres of cloud between the light and a point from what four texels show: between their middles
 // linear, where they show the cloud.
-float shadeOf(MapPlace place, vec4 a, vec4 b, vec4 c, vec4 d) {
+float shadeOf(MapPlace place, sampler2D map) {
+  vec4 a = texelFetch(map, place.first, 0);
+  vec4 b = texelFetch(map, place.first + ivec2(1, 0), 0);
+  vec4 c = texelFetch(map, place.first + ivec2(0, 1), 0);
+  vec4 d = texelFetch(map, place.first + ivec2(1, 1), 0);
   vec4 covered = step(vec4(1.0e-20f), vec4(a.w, b.w, c.w, d.w));
   vec2 u = vec2(1.0f - place.part.x, place.part.x);
   vec4 weight = covered * vec4(u * (1.0f - place.part.y), u * place.part.y);
@@ -37,9 +41,7 @@ float shadeOf(MapPlace place, vec4 a, vec4 b, vec4 c, vec4 d) {
 
 float shadeAt(vec3 p) {
   MapPlace place = mapPlace(surface.lightX, surface.lightY, surface.lightZ, surface.map, p);
-  uint below = place.first + uint(surface.map.z);
-  return shadeOf(place, depths[place.first], depths[place.first + 1u], depths[below],
-                 depths[below + 1u]);
+  return shadeOf(place, depths);
 }
 
 // The way to the eye in a light map's frame, z towards the light.

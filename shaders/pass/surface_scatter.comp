@@ -11,7 +11,7 @@ layout(constant_id = 13) const bool HALF = false;
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
 layout(set = 0, binding = 6, std430) buffer FrameState { vec4 frameState[]; };
-layout(set = 0, binding = 7, std430) readonly buffer Depths { vec4 depths[]; };
+layout(set = 0, binding = 7) uniform sampler2D depths;
 layout(set = 0, binding = 10) uniform sampler2D columns;
 layout(set = 0, binding = 11) uniform sampler2D faces;
 layout(set = 0, binding = 12) uniform sampler3D source;
@@ -45,7 +45,7 @@ void main() {
   vec3 direction = pixelDirection(frame, vec2(pixel));
   vec3 light = scatteredAt(at.range * direction, direction, at.lost);
   if (HALF && slice.firstSlab == SURFACE_LIST_SECONDS) {
-    secondLight[secondAddress(pixel)] = vec4(light, at.range);
+    imageStore(secondStore, pixel / 2, vec4(light, at.range));
   }
   uint index = uint(pixel.y) * uint(frame.viewport.x) + uint(pixel.x);
   frameState[index].xyz += light * vec3(at.red, at.green, at.blue);

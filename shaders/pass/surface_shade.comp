@@ -25,7 +25,7 @@ layout(constant_id = 14) const bool DISTANCE = false;
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
 layout(set = 0, binding = 6, std430) buffer FrameState { vec4 frameState[]; };
-layout(set = 0, binding = 7, std430) readonly buffer Depths { vec4 depths[]; };
+layout(set = 0, binding = 7) uniform sampler2D depths;
 layout(set = 0, binding = 10) uniform sampler2D columns;
 layout(set = 0, binding = 11) uniform sampler2D faces;
 layout(set = 0, binding = 12) uniform sampler3D source;
@@ -36,7 +36,7 @@ layout(set = 0, binding = 15, std430) readonly buffer FogCurve { vec4 fogCurve[]
 layout(set = 0, binding = 16) uniform sampler3D skyTable;
 layout(set = 0, binding = 17) uniform sampler3D skyPeak;
 layout(set = 0, binding = 18, std430) buffer Distances { vec4 distances[]; };
-layout(set = 0, binding = 19, std430) readonly buffer UpDepths { vec4 upDepths[]; };
+layout(set = 0, binding = 19) uniform sampler2D upDepths;
 layout(set = 0, binding = 20) uniform sampler2D upColumns;
 layout(set = 0, binding = 21) uniform sampler2D upFaces;
 layout(set = 0, binding = 22) uniform sampler2D skyShare;
@@ -124,9 +124,7 @@ const int AMBIENT_SET = 4;
 vec3 ambientAt(vec3 p, vec3 direction, ShellRay shell, float distance_) {
   const vec3 UP = vec3(0.0f, 0.0f, 1.0f);
   MapPlace at = mapPlace(surface.upX, surface.upY, surface.upZ, surface.upMap, p);
-  uint below = at.first + uint(surface.upMap.z);
-  float shade = shadeOf(at, upDepths[at.first], upDepths[at.first + 1u], upDepths[below],
-                        upDepths[below + 1u]);
+  float shade = shadeOf(at, upDepths);
   if (DETAIL) {
     float lost = shellShadeLost(shellRayTo(shell, distance_, -surface.upZ.xyz), shade);
     shade -= lost;

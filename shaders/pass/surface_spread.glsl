@@ -22,9 +22,8 @@ void look(inout Around around, ivec2 pixel) {
   bool inside = all(greaterThanEqual(pixel, surface.rect.xy)) &&
                 all(lessThan(pixel, surface.rect.zw));
   ivec2 at = inside ? pixel : surface.rect.xy;
-  vec4 light = secondLight[secondAddress(at)];
-  uint chord = surfaceWords[coverIndex(at) * SURFACE_COVER_WORDS + SURFACE_CHORD];
-  around.there = around.there && inside && int(chord) > 0;
+  vec4 light = texelFetch(secondLight, at / 2, 0);
+  around.there = around.there && inside && light.w > 0.0f;
   around.sum += light;
   around.least = min(around.least, light);
   around.most = max(around.most, light);

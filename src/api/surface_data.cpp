@@ -16,7 +16,7 @@ void retireLight(WlkContext_T& c, SurfaceLight& light) {
   entry.frame = c.frameIndex;
   entry.images[0] = std::move(light.columns);
   entry.images[1] = std::move(light.faces);
-  entry.buffers[0] = std::move(light.depths);
+  entry.images[2] = std::move(light.depths);
 }
 
 // The same on every rung.
@@ -50,7 +50,7 @@ void copyNoise(WlkContext_T& c, VkCommandBuffer commands, vk::Buffer& room) {
   SurfaceTables& tables = c.surfaceTables;
   for (uint32_t level = 0; level < DETAIL_LEVELS; ++level) {
     VkBufferImageCopy region{};
-    region.bufferOffset = detailLevelBegin(level);
+    region.bufferOffset = sizeof(uint16_t) * detailLevelBegin(level);
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, 1};
     const uint32_t edge = DETAIL_TEXELS >> level;
     region.imageExtent = {edge, edge, edge};

@@ -62,8 +62,10 @@ class Draft {
 VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t volumes,
                           uint32_t surfaces, uint32_t lights, bool froxels) {
   // Of a surface's set: what is neither uniform nor image is a storage buffer.
-  constexpr uint32_t SURFACE_IMAGES = 12;
-  constexpr uint32_t SURFACE_BUFFERS = vk::SURFACE_BINDING_COUNT - 2 - SURFACE_IMAGES;
+  constexpr uint32_t SURFACE_IMAGES = 15;
+  constexpr uint32_t SURFACE_STORES = 2;
+  constexpr uint32_t SURFACE_BUFFERS =
+      vk::SURFACE_BINDING_COUNT - 2 - SURFACE_IMAGES - SURFACE_STORES;
   const uint32_t more = froxels ? 1 : 0;
   const uint32_t spread = (lights - 1) * volumes;  // sets of further grids
   const uint32_t sets =
@@ -76,7 +78,8 @@ VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t vol
                            slots * ((10 + 4 * more) * volumes + 4 * spread +
                                     SURFACE_BUFFERS * SURFACE_PICTURES * surfaces + 5 + 4 * more)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
-                           slots * ((3 + more) * volumes + spread + 5 + 2 * more)},
+                           slots * ((3 + more) * volumes + spread +
+                                    SURFACE_STORES * SURFACE_PICTURES * surfaces + 5 + 2 * more)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                            slots * ((24 + 14 * more) * volumes + 5 * spread +
                                     SURFACE_IMAGES * SURFACE_PICTURES * surfaces + 10 + 8 * more)}};

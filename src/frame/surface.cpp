@@ -175,8 +175,9 @@ SurfaceLight makeSurfaceLight(vk::Device& device, uint32_t size, bool up) {
   light.up = up;
   light.columns = vk::Image(device, info);
   light.faces = vk::Image(device, info);
-  light.depths =
-      vk::Buffer(device, VkDeviceSize{16} * size * size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
+  info.levels = 1;
+  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
+  light.depths = vk::Image(device, info);
   return light;
 }
 

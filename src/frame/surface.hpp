@@ -32,7 +32,7 @@ struct SurfaceLightKey {
 struct SurfaceLight {
   uint32_t size = 0;
   bool up = false;  // along the local vertical, for the light of sky and ground
-  vk::Buffer depths;
+  vk::Image depths;
   vk::Image columns;
   vk::Image faces;
   SurfaceLightKey key;

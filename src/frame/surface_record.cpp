@@ -17,7 +17,7 @@ using interface_::SurfaceCover;
 using interface_::SurfaceFaces;
 using interface_::SurfaceUniforms;
 
-constexpr uint32_t MAP_LEVELS = 3;  // above the one that a dispatch of the map's pass begins at
+constexpr uint32_t MAP_LEVELS = 4;  // above the one that a dispatch of the map's pass begins at
 
 bool isDetailed(const SurfaceState& surface) {
   return surface.detail.depth > 0;
@@ -59,11 +59,10 @@ class SurfaceRecorder {
     eye.reason = planned_.eyeReason;
     index_ = static_cast<uint32_t>(passes().size());
     if (planned_.drawn) {
-      c_.firstUse(light_.columns);
-      c_.firstUse(light_.faces);
+      c_.firstUse(c_.view.resources.surfaceSeconds);
+      firstUse(light_);
       if (up_ != nullptr) {
-        c_.firstUse(up_->columns);
-        c_.firstUse(up_->faces);
+        firstUse(*up_);
       }
       if (isDetailed(surface_)) {
         c_.firstUse(surface_.shell.depth);
@@ -79,6 +78,12 @@ class SurfaceRecorder {
  private:
   std::pmr::vector<WlkPassStats>& passes() const { return c_.view.record.passes; }
   const ViewResources& resources() const { return c_.view.resources; }
+
+  void firstUse(SurfaceLight& light) {
+    c_.firstUse(light.columns);
+    c_.firstUse(light.faces);
+    c_.firstUse(light.depths);
+  }
 
   // The light maps, unless they are there already.
   void recordLights(WlkPassStats& stats) {
@@ -155,7 +160,7 @@ class SurfaceRecorder {
       c_.orderShaders();
       const bool detail = !fromLevel && isDetailed(surface_);
       c_.dispatch(c_.find(surfaceMapKey(fromLevel, detail)), c_.pipelines.surfaceLayout(), &push,
-                  groups(size), groups(size), stats, index_);
+                  groups(size / 2), groups(size / 2), stats, index_);
       fromLevel = true;
       for (uint32_t level = 0; level < MAP_LEVELS; ++level) {
         push.firstSlab += (size >> level) * (size >> level);
@@ -321,9 +326,17 @@ class SurfaceRecorder {
     storage(vk::BIND_SURFACE_COVER, r.surfaceCover);
     storage(vk::BIND_SURFACE_LIST, r.surfaceList);
     storage(vk::BIND_SURFACE_STATE, r.frameState);
-    storage(vk::BIND_SURFACE_LIGHT_DEPTHS, light.depths);
     const SurfaceLight& up = up_ != nullptr ? *up_ : light_;
-    storage(vk::BIND_SURFACE_UP_DEPTHS, up.depths);
+    const auto fetched = [&](uint32_t binding, const vk::Image& image) {
+      b.image(set, binding, image.view(), c_.pipelines.nearest(), VK_IMAGE_LAYOUT_GENERAL);
+    };
+    fetched(vk::BIND_SURFACE_LIGHT_DEPTHS, light.depths);
+    fetched(vk::BIND_SURFACE_UP_DEPTHS, up.depths);
+    b.image(set, vk::BIND_SURFACE_MAP_DEPTHS, light.depths.view(), VK_NULL_HANDLE,
+            VK_IMAGE_LAYOUT_GENERAL);
+    fetched(vk::BIND_SURFACE_SECONDS, r.surfaceSeconds);
+    b.image(set, vk::BIND_SURFACE_SECONDS_STORE, r.surfaceSeconds.view(), VK_NULL_HANDLE,
+            VK_IMAGE_LAYOUT_GENERAL);
     storage(vk::BIND_SURFACE_FACE_IDS, r.surfaceFaces);
     storage(vk::BIND_SURFACE_LEVELS, r.surfaceLevels);
     storage(vk::BIND_SURFACE_PHASE, surface_.phase);
@@ -406,9 +419,8 @@ void recordSurface(FrameCommands& commands, const ViewTargets& targets,
 // shaders/interface/surface.glsl.
 static VkDeviceSize surfaceListBytes(const WlkViewInfo& info, const SliceQuality& quality) {
   const VkDeviceSize pixels = VkDeviceSize{info.width} * info.height;
-  const VkDeviceSize seconds = VkDeviceSize{info.width / 2 + 1} * (info.height / 2 + 1);
   return sizeof(uint32_t) *
-         (interface_::SURFACE_LIST_HEAD + 4 * seconds + pixels * (quality.halfVolumes ? 2 : 1));
+         (interface_::SURFACE_LIST_HEAD + pixels * (quality.halfVolumes ? 2 : 1));
 }
 
 void makeSurfaces(vk::Device& device, const WlkViewInfo& info, const SliceQuality& quality,
@@ -431,6 +443,14 @@ void makeSurfaces(vk::Device& device, const WlkViewInfo& info, const SliceQualit
   r.surfaceCover = vk::Buffer(device, bytes, CLEARED, false);
   r.surfaceList = vk::Buffer(device, surfaceListBytes(info, quality),
                              CLEARED | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, false);
+  vk::ImageInfo seconds;
+  seconds.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+  seconds.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
+  seconds.extent = {1, 1, 1};
+  if (quality.halfVolumes) {
+    seconds.extent = {info.width / 2 + 1, info.height / 2 + 1, 1};
+  }
+  r.surfaceSeconds = vk::Image(device, seconds);
   r.surfaceFaces = vk::Buffer(device, texels * sizeof(SurfaceFaces), CLEARED, false);
   r.surfaceLevels =
       vk::Buffer(device, VkDeviceSize{32} * surfaceMapTexels(size),

@@ -219,11 +219,15 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
     for (const uint32_t i : {BIND_SURFACE_FRAME, BIND_SURFACE_UNIFORMS}) {
       surface[i].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     }
-    for (const uint32_t i : {BIND_SURFACE_DEPTH, BIND_SURFACE_COLUMNS, BIND_SURFACE_FACES,
-                             BIND_SURFACE_SOURCE, BIND_SURFACE_CURVES, BIND_SURFACE_SKY_TABLE,
-                             BIND_SURFACE_SKY_PEAK, BIND_SURFACE_UP_COLUMNS, BIND_SURFACE_UP_FACES,
-                             BIND_SURFACE_SHARE, BIND_SURFACE_NOISE, BIND_SURFACE_SHELL}) {
+    for (const uint32_t i :
+         {BIND_SURFACE_DEPTH, BIND_SURFACE_LIGHT_DEPTHS, BIND_SURFACE_COLUMNS, BIND_SURFACE_FACES,
+          BIND_SURFACE_SOURCE, BIND_SURFACE_CURVES, BIND_SURFACE_SKY_TABLE, BIND_SURFACE_SKY_PEAK,
+          BIND_SURFACE_UP_DEPTHS, BIND_SURFACE_UP_COLUMNS, BIND_SURFACE_UP_FACES,
+          BIND_SURFACE_SHARE, BIND_SURFACE_NOISE, BIND_SURFACE_SHELL, BIND_SURFACE_SECONDS}) {
       surface[i].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    }
+    for (const uint32_t i : {BIND_SURFACE_MAP_DEPTHS, BIND_SURFACE_SECONDS_STORE}) {
+      surface[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     }
     surfaceSet_ = makeSetLayout(device_, surface);
     surfaceLayout_ = makeLayout(device_, surfaceSet_);

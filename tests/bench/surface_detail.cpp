@@ -3,11 +3,18 @@
 // docs/results/surface-detail.csv. Medians of interleaved rounds in ms: CPU times of all threads,
 // of a frame in which nothing changed and of one in which the light moved; and of the latter's
 // passes the time that they took.
+//
+// With --count, under `valgrind --tool=callgrind --instr-atstart=no --smc-check=all-non-file`: one
+// dump of instructions for each of these frames, named as they are; no CSV.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 #include <vector>
+#if __has_include(<valgrind/callgrind.h>)
+#include <valgrind/callgrind.h>
+#endif
 
 #include "bench/front_timing.hpp"
 #include "bench/surface_view_scene.hpp"
@@ -66,12 +73,45 @@ struct Job {
   int rounds = 5;
   uint32_t rays = 1;
   double part = 0.05;
+  bool count = false;
 };
+
+// What a frame takes, for callgrind.
+void dump([[maybe_unused]] SurfaceWorld& world, [[maybe_unused]] const char* name) {
+#ifdef CALLGRIND_START_INSTRUMENTATION
+  CALLGRIND_START_INSTRUMENTATION;
+  CALLGRIND_ZERO_STATS;
+  world.render();
+  CALLGRIND_DUMP_STATS_AT(name);
+  CALLGRIND_STOP_INSTRUMENTATION;
+#else
+  throw std::runtime_error("--count: built without valgrind/callgrind.h");
+#endif
+}
+
+void count(SurfaceWorld& world, double depth) {
+  int turns = 0;
+  for (const bool with : {false, true}) {
+    world.detail(with ? depth : 0);
+    for (int warmUp = 0; warmUp < 2; ++warmUp) {
+      world.turnLight(++turns);
+      world.render();
+      world.render();
+    }
+    dump(world, with ? "still with detail" : "still");
+    world.turnLight(++turns);
+    dump(world, with ? "moved with detail" : "moved");
+  }
+}
 
 void measure(SurfaceWorld& world, const SurfaceView& view, const Job& job) {
   const BodyMesh mesh = bodyMesh(view.body);
   world.show(view, mesh, {false, 0, 0, WLK_QUALITY_HIGH}, job.rays);
   const double depth = job.part * heightOf(mesh);
+  if (job.count) {
+    count(world, depth);
+    return;
+  }
   Times plain;
   Times detailed;
   Times warmUp;  // makes pipelines
@@ -116,6 +156,7 @@ int main(int argc, char** argv) {
   app.add_option("--rays", job.rays, "along the edge of a pixel")->check(CLI::Range(1, 64));
   app.add_option("--depth", parts, "of the detail, parts of the body's height");
   app.add_option("--view", names, "these only");
+  app.add_flag("--count", job.count, "dumps of callgrind in place of times");
   app.add_flag("!--no-header", header, "rows only");
   CLI11_PARSE(app, argc, argv);
   try {

@@ -154,6 +154,29 @@ TEST(SurfaceCover, DeviceCoversAsTheModelTextSays) {
   }
 }
 
+// The same picture as a part of one of 16384 pixels, in which places are known to 4e-3 of a pixel.
+TEST(SurfaceCover, FarFromTheFirstPixelNoCrossingIsLost) {
+  constexpr int FAR = 16384 - 64;
+  support::ComputeRunner runner;
+  for (const ClosedMesh& mesh :
+       {support::boxMesh(), support::sphereMesh(5), support::torusMesh()}) {
+    for (const bool parallel : {true, false}) {
+      SurfaceUniforms u = uniformsOf(parallel, -3);
+      const std::vector<SurfaceCover> expected = onDevice(runner, mesh, u);
+      u.pixelX += float{FAR} * u.pixelW;
+      u.pixelY += float{FAR} * u.pixelW;
+      u.rect = {FAR, FAR, FAR + WIDTH, FAR + HEIGHT};
+      const std::vector<SurfaceCover> found = onDevice(runner, mesh, u);
+      int moved = 0;
+      for (size_t i = 0; i < found.size(); ++i) {
+        ASSERT_EQ(found[i].end, 0u) << i;
+        moved += (found[i].back > 0) != (expected[i].back > 0) ? 1 : 0;
+      }
+      EXPECT_LE(moved, 4);
+    }
+  }
+}
+
 // The eye in the middle: triangles before, behind and around it.
 TEST(SurfaceCover, FromInsideEveryPixelLeavesOnce) {
   support::ComputeRunner runner;
