@@ -75,6 +75,6 @@ Inside shellLit(Inside inside, ShellRay ray) {
 }
 
 // The light maps tell it.
-float shellShadeLost(ShellRay ray, float shade) {
+float shellShadeLost(ShellRay ray, float shade, int steps) {
   return 0.0f;
 }

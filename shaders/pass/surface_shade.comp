@@ -57,6 +57,10 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 
 // Along a chord, of equal opacity.
 const int STRETCHES = 4;
+// At the detail on the way to the light: from where the cloud begins, from where little of it is
+// lit otherwise than at the point that stands for all, and from that.
+const int LOOKS_FIRST = 2;
+const int LOOKS = 4;
 const float LONGEST_CHORD = 1.0e7f;  // m
 
 Inside insideOf(SurfaceCover cover, float metre, float first) {
@@ -126,7 +130,7 @@ vec3 ambientAt(vec3 p, vec3 direction, ShellRay shell, float distance_) {
   MapPlace at = mapPlace(surface.upX, surface.upY, surface.upZ, surface.upMap, p);
   float shade = shadeOf(at, upDepths);
   if (DETAIL) {
-    float lost = shellShadeLost(shellRayTo(shell, distance_, -surface.upZ.xyz), shade);
+    float lost = shellShadeLost(shellRayTo(shell, distance_, -surface.upZ.xyz), shade, LOOKS);
     shade -= lost;
     at.depth -= lost;
   }
@@ -207,9 +211,9 @@ void main() {
   vec2 lost = vec2(0.0f);
   if (LIGHT_ENABLED && DETAIL) {
     vec3 toLight = frame.lights[0].direction.xyz;
-    lost.x = shellShadeLost(shellRayTo(shell, near, toLight), shadeNear);
-    lost.y =
-        shellShadeLost(shellRayTo(shell, distance_, toLight), shadeAt(distance_ * direction));
+    lost.x = shellShadeLost(shellRayTo(shell, near, toLight), shadeNear, LOOKS_FIRST);
+    lost.y = shellShadeLost(shellRayTo(shell, distance_, toLight), shadeAt(distance_ * direction),
+                            LOOKS);
     shadeNear -= lost.x;
   }
   for (int i = 1; i <= STRETCHES; ++i) {

@@ -112,15 +112,15 @@ ShellMarch shellMarch(Inside inside, ShellRay ray, float extinction, float seen)
 }
 
 // Metres that detail takes from the `shade` metres of cloud between a point and the light, near the
-// point; further away what it takes in the mean. ray: from the point to the light.
-const int SHELL_STEPS_SHADE = 4;
+// point; further away what it takes in the mean. ray: from the point to the light, looked along
+// `steps` times.
 const float SHELL_SHADE = 2.0f;  // depths of the detail that are looked at
-float shellShadeLost(ShellRay ray, float shade) {
+float shellShadeLost(ShellRay ray, float shade, int steps) {
   float shell = surface.detail.x;
-  float width = min(shade, SHELL_SHADE * shell) / float(SHELL_STEPS_SHADE);
+  float width = min(shade, SHELL_SHADE * shell) / float(steps);
   float level = shellLevel(ray);
   float lost = 0.0f;
-  for (int i = 0; i < SHELL_STEPS_SHADE; ++i) {
+  for (int i = 0; i < steps; ++i) {
     vec3 place = ray.origin + (float(i) + 0.5f) * width * ray.slope;
     lost += 1.0f - shellDensityAt(shellDepthAt(place), place, level);
   }
