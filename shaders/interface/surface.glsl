@@ -84,6 +84,7 @@ const uint SURFACE_LIST_OTHERS = 1u;
 const uint SURFACE_LIST_OWN = 2u;
 const uint SURFACE_LISTS = 3u;
 const uint SURFACE_LIST_HEAD = 4u * SURFACE_LISTS;
+const uint SURFACE_MAP_LEVELS = 4u;  // of means that a dispatch of the light map's pass makes
 const uint SURFACE_SMALL = 32u;   // pixels that one lane walks alone
 const uint SURFACE_TEAM = 8u;     // lanes that
 const uint SURFACE_MIDDLE = 1024u;  // walk so many together

@@ -22,8 +22,6 @@ struct MapTexel {
   vec4 face;    // z of that; x and y of the shaded face's; depth of the lit face, m
 };
 
-const uint MAP_LEVELS = 4u;  // above the one at hand
-
 shared vec4 columns[64];
 shared vec4 sides[64];
 
@@ -126,7 +124,7 @@ void main() {
   }
   columns[lane] = mean.column;
   sides[lane] = mean.face;
-  for (uint level = 2u; level <= MAP_LEVELS; ++level) {
+  for (uint level = 2u; level <= SURFACE_MAP_LEVELS; ++level) {
     memoryBarrierShared();
     barrier();
     first += size * size;

@@ -57,8 +57,8 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 
 // Along a chord, of equal opacity.
 const int STRETCHES = 4;
-// At the detail on the way to the light: from where the cloud begins, from where little of it is
-// lit otherwise than at the point that stands for all, and from that.
+// At the detail on the way to the light: from where the cloud begins, and from the point whose
+// light stands for all. Errors: docs/results/surface-looks.csv.
 const int LOOKS_FIRST = 2;
 const int LOOKS = 4;
 const float LONGEST_CHORD = 1.0e7f;  // m

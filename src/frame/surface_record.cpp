@@ -13,11 +13,10 @@ namespace {
 
 using interface_::FrameUniforms;
 using interface_::SliceConstants;
+using interface_::SURFACE_MAP_LEVELS;
 using interface_::SurfaceCover;
 using interface_::SurfaceFaces;
 using interface_::SurfaceUniforms;
-
-constexpr uint32_t MAP_LEVELS = 4;  // above the one that a dispatch of the map's pass begins at
 
 bool isDetailed(const SurfaceState& surface) {
   return surface.detail.depth > 0;
@@ -155,14 +154,14 @@ class SurfaceRecorder {
     SliceConstants push{};
     push.slabCount = surfaceMapTexels(edge);
     bool fromLevel = false;
-    for (uint32_t size = edge; size > 1; size >>= MAP_LEVELS) {
+    for (uint32_t size = edge; size > 1; size >>= SURFACE_MAP_LEVELS) {
       push.lightSize = size;
       c_.orderShaders();
       const bool detail = !fromLevel && isDetailed(surface_);
       c_.dispatch(c_.find(surfaceMapKey(fromLevel, detail)), c_.pipelines.surfaceLayout(), &push,
                   groups(size / 2), groups(size / 2), stats, index_);
       fromLevel = true;
-      for (uint32_t level = 0; level < MAP_LEVELS; ++level) {
+      for (uint32_t level = 0; level < SURFACE_MAP_LEVELS; ++level) {
         push.firstSlab += (size >> level) * (size >> level);
       }
     }

@@ -172,7 +172,8 @@ TEST(SurfaceCover, FarFromTheFirstPixelNoCrossingIsLost) {
         ASSERT_EQ(found[i].end, 0u) << i;
         moved += (found[i].back > 0) != (expected[i].back > 0) ? 1 : 0;
       }
-      EXPECT_LE(moved, 4);
+      // Of some 150 pixels on outlines one is expected within 4e-3 of them on either side.
+      EXPECT_LE(moved, 2);
     }
   }
 }
