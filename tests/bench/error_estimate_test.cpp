@@ -19,8 +19,18 @@ struct Compared {
   WlkErrorEstimate estimate{};
 };
 
-// Every case without opaque geometry, which the estimate leaves out, at every level; those with
-// volumes at one of them also without the light of sky and ground.
+// Of the same slabs and texels with forward scattering, whose limit is no grid's.
+double slabsOf(const GateCase& gate, const std::string& level) {
+  for (const Measured& measured : gate.levels) {
+    if (measured.row.at("level") == "forward-" + level) {
+      return measured.slabs;
+    }
+  }
+  return NAN;
+}
+
+// Every case without opaque geometry, which the estimate leaves out, at every level that
+// test runs measure; those with volumes at one of them also without the light of sky and ground.
 const std::vector<Compared>& compareAll() {
   static const std::vector<Compared> all = [] {
     std::vector<Compared> result;
@@ -29,12 +39,11 @@ const std::vector<Compared>& compareAll() {
         continue;
       }
       const GateCase& gate = gateCase(one);
-      for (size_t level = 0; level < LEVEL_COUNT; ++level) {
-        const Measured& own = gate.levels[level];
-        // The same slabs and texels with forward scattering, whose limit is no grid's.
-        const bool hasForward = gate.levels.size() > LEVEL_COUNT;
-        const double slabs = hasForward ? gate.levels[LEVEL_COUNT + level].slabs : NAN;
-        result.push_back({one.name, own.row.at("level"), own.truth, slabs, own.estimate});
+      for (const Measured& own : gate.levels) {
+        if (own.isLevel) {
+          const std::string level = own.row.at("level");
+          result.push_back({one.name, level, own.truth, slabsOf(gate, level), own.estimate});
+        }
       }
       if (gate.references.converged.picture) {
         const Measured bare = measureBare(one, gate.references);

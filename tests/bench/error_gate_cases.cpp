@@ -15,7 +15,7 @@ const GateCase& gateCase(const Case& one) {
   GateCase& gate = found->second;
   if (isNew) {
     gate.references = readReferences(WELKIN_BENCH_FOLDER "/reference", one);
-    gate.levels = measureLevels(one, gate.references);
+    gate.levels = measureLevels(one, gate.references, one.ultraInTests);
   }
   return gate;
 }

@@ -16,7 +16,7 @@ struct GateCase {
 
 std::vector<Case> gateCases();
 
-/// Renders when first asked for.
+/// Renders when first asked for; without level ultra where the case is left out of it.
 const GateCase& gateCase(const Case& one);
 
 }  // namespace bench

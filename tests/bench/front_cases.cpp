@@ -22,7 +22,7 @@ std::vector<std::string> textsOf(const host::JsonNode& node, const char* key) {
 
 Case parseCase(const host::JsonNode& node) {
   node.onlyKeys({"name", "scene", "overrides", "analytic", "size", "samples", "flip", "curves",
-                 "timedWidth"});
+                 "timedWidth", "ultraInTests"});
   Case one;
   one.name = node.at("name").text();
   const auto folder = std::filesystem::path(node.file()).parent_path();
@@ -40,6 +40,7 @@ Case parseCase(const host::JsonNode& node) {
   one.samplesAll = samples[0].count(1);
   one.samplesSingle = samples[1].count(1);
   one.curves = node.has("curves") && node.at("curves").boolean();
+  one.ultraInTests = node.has("ultraInTests") && node.at("ultraInTests").boolean();
   if (node.has("timedWidth")) {
     one.timedWidth = node.at("timedWidth").count(1, host::MAX_IMAGE_EDGE);
   }

@@ -82,13 +82,16 @@ Measured measureMethod(World& world, const Method& method, const host::RasterRes
 
 }  // namespace
 
-std::vector<Measured> measureLevels(const Case& one, const References& references) {
+std::vector<Measured> measureLevels(const Case& one, const References& references, bool ultra) {
   World shown(one, false);
   World bare(one, false, false);
   const host::RasterResult opaque = shown.makeOpaque();
   // Slabs and texels answer for themselves with forward scattering, whose limit is no grid's.
   std::vector<Method> methods = levelMethods();
   if (references.converged.picture) {
+    if (!ultra) {
+      methods.resize(WLK_QUALITY_ULTRA);
+    }
     const std::vector<Method> forward = forwardMethods();
     methods.insert(methods.end(), forward.begin(), forward.end());
   }

@@ -30,8 +30,10 @@ struct Measured {
   WlkErrorEstimate estimate{};
 };
 
-/// A case's levels, rendered once each.
-std::vector<Measured> measureLevels(const Case& one, const References& references);
+/// A case's levels, rendered once each; without `ultra` that level is left out where it has light
+/// of all orders to find.
+std::vector<Measured> measureLevels(const Case& one, const References& references,
+                                    bool ultra = true);
 
 /// Level high without the light of sky and ground.
 Measured measureBare(const Case& one, const References& references);

@@ -55,7 +55,7 @@ class Script {
 };
 
 std::string sceneFile(const std::string& name) {
-  return std::string(WELKIN_SCENES) + "/" + name;
+  return WELKIN_SCENES "/" + name;
 }
 
 TEST(WindowSamplePanel, TheHourMovesTheSunFromRightToLeftAndTurnsItRedAndOff) {

@@ -189,6 +189,7 @@ TEST(Diameters, OneEverywhereIsAMediumOfIt) {
       Quality quality;
       quality.scattering = test.scattering;
       quality.slices = 64;
+      quality.cells = 16;  // the same for all three
       scene.setQuality(quality);
       for (size_t k = 0; k < TOWARDS.size(); ++k) {
         scene.setLight(normalized({0.3, 0.5, TOWARDS[k]}));

@@ -43,6 +43,7 @@ SceneOptions halfWith(uint64_t flags) {
   o.scattering = WLK_SCATTERING_FORWARD;
   o.volumeResolution = WLK_VOLUME_RESOLUTION_HALF;
   o.qualityFlags = flags;
+  o.volumeCells = 16;
   return o;
 }
 

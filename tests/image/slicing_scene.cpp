@@ -140,6 +140,7 @@ void SlicingScene::setQuality(const Quality& quality) {
   q.slicing = quality.slicing;
   q.scattering = quality.scattering;
   q.volumeResolution = quality.resolution;
+  q.volumeCells = quality.cells;
   welkin::check(wlkSetQuality(scene_.context, scene_.view, &q));
 }
 

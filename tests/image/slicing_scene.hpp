@@ -52,6 +52,7 @@ struct Quality {
   uint32_t lightSize = 256;
   uint32_t level = WLK_QUALITY_HIGH;
   uint32_t resolution = WLK_VOLUME_RESOLUTION_FULL;
+  uint32_t cells = 0;  // 0: the level's
 };
 
 // Square image: premultiplied radiance and transmittance, RGB.

@@ -13,8 +13,10 @@ import shlex
 import shutil
 import sys
 
-# What changes no object: warnings as errors, and where the list of headers goes, with its words.
-WITHOUT_WORD, WITH_WORD = ("-Werror", "-MD"), ("-MT", "-MF")
+# What changes no object: warnings as errors, where the list of headers goes, with its words, and
+# headers compiled before (what units would be without them, builds without them show).
+WITHOUT_WORD, WITH_WORD = ("-Werror", "-MD", "-Winvalid-pch"), ("-MT", "-MF")
+PRECOMPILED = "cmake_pch.hxx"
 
 
 def essence(words):
@@ -25,6 +27,9 @@ def essence(words):
             result = next(words)
         elif word in WITH_WORD:
             next(words)
+        elif word == "-include":
+            header = next(words)
+            rest += [] if header.endswith(PRECOMPILED) else [word, header]
         elif word not in WITHOUT_WORD:
             rest.append(word)
     return result, rest

@@ -57,18 +57,19 @@ struct Kind {
   uint64_t other = 1;
 };
 constexpr Kind WHOLE{"whole", true, true, WLK_SCATTERING_ALL_ORDERS, false, false, false, false,
-                     23,      61,   7};
+                     47,      121,  14};
 constexpr Kind CLOUD{"cloud", false, true, WLK_SCATTERING_FORWARD, false, false, false,
                      false,   1,     4};
-constexpr Kind AIR{"air", true, false, WLK_SCATTERING_FORWARD, false, false, false, false, 4, 31};
+constexpr Kind AIR{"air", true, false, WLK_SCATTERING_FORWARD, false, false, false, false,
+                   8,     61,   3};
 constexpr Kind TARGETS{"targets", false, true, WLK_SCATTERING_FORWARD, true, false, false,
-                       false,     2,     13};
+                       false,     4,     25};
 constexpr Kind DROPLETS{"droplets", false, true, WLK_SCATTERING_FORWARD, true, true, false, false,
-                        61,         307,   61};
+                        121,        607,   121};
 constexpr Kind SURFACE{"surface", false, true, WLK_SCATTERING_FORWARD, false, false, true, false,
-                       7,         61,    7};
+                       14,        121,   14};
 constexpr Kind SETTERS{"setters", false, true, WLK_SCATTERING_FORWARD, true, false, true, true,
-                       31,        101,   7};
+                       61,        201,   14};
 
 class Life {
  public:

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "stress/abuse.hpp"
 
@@ -49,12 +50,20 @@ T poisoned(const T& valid, const NumberField& field, uint32_t index, double valu
 }
 
 // `other` differs from the victim's scene in every field, so that a half-made change shows. `undo`
-// takes back what VictimScene::restore does not know.
+// takes back an accepted value that VictimScene::restore does not know.
 template <typename T>
-void abuseNumbers(
-    const T& other, const std::vector<NumberField>& fields,
-    const std::function<WlkResult(const T&)>& call, const std::function<void()>& undo = [] {}) {
+void abuseNumbers(const T& other, const std::vector<NumberField>& fields,
+                  const std::function<WlkResult(const T&)>& call,
+                  const std::function<void()>& undo = nullptr) {
   VictimScene& victim = VictimScene::get();
+  // What an accepted value left is taken back before a call that changes nothing, which would not
+  // show after; the next accepted value replaces it.
+  bool changed = false;
+  const auto takeBack = [&] {
+    if (std::exchange(changed, false)) {
+      victim.restore();
+    }
+  };
   for (const NumberField& field : fields) {
     bool refused = false;
     for (uint32_t i = 0; i < field.count; ++i) {
@@ -67,7 +76,7 @@ void abuseNumbers(
         const double value = values[k];
         SCOPED_TRACE(std::string(field.name) + "[" + std::to_string(i) +
                      "] = " + std::to_string(value));
-        const WlkResult result = call(poisoned(other, field, i, value));
+        WlkResult result = call(poisoned(other, field, i, value));
         if (result == WLK_SUCCESS) {
           EXPECT_TRUE(std::isfinite(value)) << "a number that is not finite was accepted";
           ASSERT_EQ(wlkPrepare(victim.scene.context), WLK_SUCCESS);
@@ -75,17 +84,24 @@ void abuseNumbers(
                     WLK_SUCCESS);
           EXPECT_EQ(victim.scene.read(WLK_IMAGE_COLOR).badValues(), 0u);
           EXPECT_EQ(victim.scene.stats().nonFinitePixels, 0u);
-          victim.restore();
-          undo();
+          changed = undo == nullptr;
+          if (undo != nullptr) {
+            undo();
+          }
           continue;
         }
         refused = true;
+        if (changed) {
+          takeBack();
+          result = call(poisoned(other, field, i, value));
+        }
         EXPECT_FAILS(result, WLK_ERROR_INVALID_ARGUMENT, field.name);
         EXPECT_EQ(lastError().structType, other.sType);
       }
     }
     EXPECT_TRUE(refused) << field.name << " was never checked";
   }
+  takeBack();
   victim.expectUnchanged();
 }
 
