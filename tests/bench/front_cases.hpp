@@ -28,7 +28,7 @@ struct Case {
   /// Quick runs too measure the methods that fill the curves.
   bool curves = false;
   /// Every test run measures level ultra too; of other cases with volumes, whose light of all
-  /// orders takes 10 s at that level, `welkin_front --check` does.
+  /// orders takes two thirds of all invocations there, `welkin_front --check` does.
   bool ultraInTests = false;
   /// Width of the timed views at least, where the usual one leaves frames of few milliseconds; 0:
   /// the usual one. Pixels.
