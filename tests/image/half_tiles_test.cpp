@@ -43,7 +43,7 @@ SceneOptions halfWith(uint64_t flags) {
   o.scattering = WLK_SCATTERING_FORWARD;
   o.volumeResolution = WLK_VOLUME_RESOLUTION_HALF;
   o.qualityFlags = flags;
-  o.volumeCells = 16;
+  o.volumeCells = 16;  // the light inside is not what tiles change
   return o;
 }
 
