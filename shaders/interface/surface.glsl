@@ -48,19 +48,14 @@ struct SurfaceCover {
   uint leave;  // ~ the nearest at which one leaves
   uint back;   // farthest at which one leaves; 0 where it never does
   int chord;   // depths of leaving less those of entering
-  uint end;    // ~ the depth at which rays end; 0 where they never do
 };
-// What the shading leaves in its place for light scattered more than once: a point on the pixel's
-// ray, and what that point's light counts in the picture.
-struct SurfaceSeen {
-  float lost;     // what detail takes of the metres between it and the light
-  float green;
-  float blue;
-  float range;    // from the eye, m
-  float red;
-};
-// Its words.
-const uint SURFACE_COVER_WORDS = 5u;
+// Its words. Behind those of all pixels of the picture's rectangle each has one more: ~ the depth at
+// which rays end; 0 where they never do.
+//
+// What the shading leaves in their place for light scattered more than once: what detail takes of
+// the metres between a point on the pixel's ray and the light, green and blue of what that point's
+// light counts in the picture, and how far it is from the eye, m; red in the further word.
+const uint SURFACE_COVER_WORDS = 4u;
 const uint SURFACE_FRONT = 0u;
 const uint SURFACE_LEAVE = 1u;
 const uint SURFACE_BACK = 2u;
@@ -72,6 +67,8 @@ struct SurfaceFaces {
   uint shaded;
 };
 
+// Texels of the mesh's images along a row: any device has so many.
+const uint SURFACE_MESH_ROW = 4096u;
 const uint SURFACE_LANES = 64u;   // triangles of a workgroup
 const uint SURFACE_ROW = 32768u;  // workgroups along x
 const uint SURFACE_CELL = 4u;     // pixels along an edge that one lane lists

@@ -2,8 +2,8 @@
 // Triangles into the pixels of a SurfaceCover buffer: a workgroup has a triangle for each lane;
 // those that cover many pixels are shared by some lanes, or by all.
 //
-// Before: `surfaceVertex(i)` a mesh position, `surfaceIndex(k)`, and `surfaceCross(uniforms, pixel,
-// index in the buffer, crossing, triangle)`.
+// Before: `surfaceVertex(i)` a mesh position, `surfaceCorners(triangle)`, and `surfaceCross(uniforms,
+// pixel, index in the buffer, crossing, triangle)`.
 
 // Beside the exact box of a triangle, in pixels, for the rounding of its corners: in pictures of
 // 16384 they are known to 4e-3 (2.5 units in the last place of a division, and those of what is
@@ -56,17 +56,15 @@ ivec4 surfaceBox(SurfaceUniforms s, ivec2 strip, vec3 a, vec3 b, vec3 c) {
 }
 
 SurfaceTriangle surfaceTriangle(SurfaceUniforms s, ivec2 strip, uint triangle) {
-  uint i = surfaceIndex(3u * triangle);
-  uint j = surfaceIndex(3u * triangle + 1u);
-  uint k = surfaceIndex(3u * triangle + 2u);
-  vec3 p = surfaceVertex(i);
-  vec3 q = surfaceVertex(j);
-  vec3 r = surfaceVertex(k);
+  uvec3 at = surfaceCorners(triangle);
+  vec3 p = surfaceVertex(at.x);
+  vec3 q = surfaceVertex(at.y);
+  vec3 r = surfaceVertex(at.z);
   SurfaceTriangle t;
   t.a = surfacePoint(s, p);
   t.b = surfacePoint(s, q);
   t.c = surfacePoint(s, r);
-  t.turned = bvec3(j > k, k > i, i > j);
+  t.turned = bvec3(at.y > at.z, at.z > at.x, at.x > at.y);
   t.depths = vec3(dot(s.depth, vec4(p, 1.0f)), dot(s.depth, vec4(q, 1.0f)),
                   dot(s.depth, vec4(r, 1.0f)));
   t.box = surfaceBox(s, strip, t.a, t.b, t.c);

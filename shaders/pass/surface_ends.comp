@@ -30,6 +30,6 @@ void main() {
     float step_ = clamp((depth - surface.steps.x) * surface.steps.y, 0.0f, surface.steps.z) + 0.5f;
     uint at = uint(pixel.y - surface.rect.y) * uint(surface.rect.z - surface.rect.x) +
               uint(pixel.x - surface.rect.x);
-    surfaceCover[at].end = ~uint(step_);
+    surfaceWords[coverFurther(at)] = ~uint(step_);
   }
 }

@@ -27,9 +27,10 @@ shared vec4 sides[64];
 
 // Normal in the light's frame, of either sign; 0 where the triangle is seen edge on.
 vec3 normalOf(uint triangle) {
+  uvec3 corners = surfaceCorners(triangle);
   vec3 p[3];
   for (uint i = 0u; i < 3u; ++i) {
-    vec4 at = vec4(surfaceVertex(surfaceIndex(3u * triangle + i)), 1.0f);
+    vec4 at = vec4(surfaceVertex(corners[i]), 1.0f);
     p[i] = vec3(dot(surface.pixelX, at) * surface.map.x, dot(surface.pixelY, at) * surface.map.x,
                 -dot(surface.depth, at));
   }

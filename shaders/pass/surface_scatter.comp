@@ -20,7 +20,7 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "surface_mesh.glsl"
 #include "surface_list.glsl"
-layout(set = 0, binding = 4, std430) buffer SeenPoints { SurfaceSeen seen[]; };
+layout(set = 0, binding = 4, std430) readonly buffer SeenPoints { vec4 seen[]; };
 #include "ray.glsl"
 #include "surface_light.glsl"
 #include "surface_place.glsl"
@@ -41,12 +41,14 @@ void main() {
   if (pixel.x < 0) {
     return;
   }
-  SurfaceSeen at = seen[coverIndex(pixel)];
+  uint at = coverIndex(pixel);
+  vec4 point = seen[at];
+  vec3 weight = vec3(uintBitsToFloat(surfaceWords[coverFurther(at)]), point.yz);
   vec3 direction = pixelDirection(frame, vec2(pixel));
-  vec3 light = scatteredAt(at.range * direction, direction, at.lost);
+  vec3 light = scatteredAt(point.w * direction, direction, point.x);
   if (HALF && slice.firstSlab == SURFACE_LIST_SECONDS) {
-    imageStore(secondStore, pixel / 2, vec4(light, at.range));
+    imageStore(secondStore, pixel / 2, vec4(light, point.w));
   }
   uint index = uint(pixel.y) * uint(frame.viewport.x) + uint(pixel.x);
-  frameState[index].xyz += light * vec3(at.red, at.green, at.blue);
+  frameState[index].xyz += light * weight;
 }

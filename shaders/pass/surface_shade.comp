@@ -30,8 +30,8 @@ layout(set = 0, binding = 10) uniform sampler2D columns;
 layout(set = 0, binding = 11) uniform sampler2D faces;
 layout(set = 0, binding = 12) uniform sampler3D source;
 layout(set = 0, binding = 13) uniform sampler2D curves;
-// P without the forward peak, then what is in the peak, 1/sr: RGB at the nodes of a phase curve.
-layout(set = 0, binding = 14, std430) readonly buffer Phase { vec4 phase[]; };
+// P without the forward peak, below it what is in the peak, 1/sr: RGB at the nodes of a phase curve.
+layout(set = 0, binding = 14) uniform sampler2D phase;
 layout(set = 0, binding = 15, std430) readonly buffer FogCurve { vec4 fogCurve[]; };
 layout(set = 0, binding = 16) uniform sampler3D skyTable;
 layout(set = 0, binding = 17) uniform sampler3D skyPeak;
@@ -43,6 +43,7 @@ layout(set = 0, binding = 22) uniform sampler2D skyShare;
 layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "surface_mesh.glsl"
+layout(set = 0, binding = 4, std430) buffer CoverRows { uvec4 surfaceRows[]; };
 #include "surface_list.glsl"
 #include "../interface/sky_table.glsl"
 #include "surface_spread.glsl"
@@ -80,18 +81,13 @@ Inside insideOf(SurfaceCover cover, float metre, float first) {
 
 // By one variable, as the record is to take the cover's place.
 SurfaceCover coverAt(uint index) {
-  uint at = index * SURFACE_COVER_WORDS;
-  return SurfaceCover(surfaceWords[at], surfaceWords[at + 1u], surfaceWords[at + 2u],
-                      int(surfaceWords[at + 3u]), surfaceWords[at + 4u]);
+  uvec4 row = surfaceRows[index];
+  return SurfaceCover(row.x, row.y, row.z, int(row.w));
 }
 
-void leave(uint index, SurfaceSeen seen) {
-  uint at = index * SURFACE_COVER_WORDS;
-  surfaceWords[at] = floatBitsToUint(seen.lost);
-  surfaceWords[at + 1u] = floatBitsToUint(seen.green);
-  surfaceWords[at + 2u] = floatBitsToUint(seen.blue);
-  surfaceWords[at + 3u] = floatBitsToUint(seen.range);
-  surfaceWords[at + 4u] = floatBitsToUint(seen.red);
+void leave(uint index, float lost, float range, vec3 weight) {
+  surfaceRows[index] = floatBitsToUint(vec4(lost, weight.yz, range));
+  surfaceWords[coverFurther(index)] = floatBitsToUint(weight.x);
 }
 
 // For a surface's detail.
@@ -114,12 +110,12 @@ ShellRay shellRayTo(ShellRay from, float t, vec3 direction) {
   return ray;
 }
 
-vec3 phaseAt(uint table, vec3 direction) {
+vec3 phaseAt(int table, vec3 direction) {
   float x = phaseCoordinate(oneMinusCosine(direction, frame.lights[0].direction.xyz)) *
             float(CURVE_NODES - 1);
-  uint i = min(uint(x), uint(CURVE_NODES - 2));
-  uint first = table * uint(CURVE_NODES) + i;
-  return mix(phase[first].xyz, phase[first + 1u].xyz, x - float(i));
+  int i = min(int(x), CURVE_NODES - 2);
+  return mix(texelFetch(phase, ivec2(i, table), 0).xyz,
+             texelFetch(phase, ivec2(i + 1, table), 0).xyz, x - float(i));
 }
 
 // The source that sky and ground make at a point: in the slab along the vertical that the footprint
@@ -188,8 +184,8 @@ void main() {
   AirNodes nodes = airNodes(direction, inside.front, inside.back);
   float through = 1.0f;
   vec3 sum = vec3(0.0f);
-  vec3 smooth_ = LIGHT_ENABLED ? phaseAt(0u, direction) : vec3(0.0f);
-  vec3 peak = LIGHT_ENABLED ? phaseAt(1u, direction) : vec3(0.0f);
+  vec3 smooth_ = LIGHT_ENABLED ? phaseAt(0, direction) : vec3(0.0f);
+  vec3 peak = LIGHT_ENABLED ? phaseAt(1, direction) : vec3(0.0f);
   // Stretches of equal opacity of what detail leaves; in [B08] of the whole chord.
 #ifdef SHELL_NOISE_COMPUTED
   float cut = surface.optics.y * inside.chord;
@@ -271,7 +267,7 @@ void main() {
         }
       }
       if (own) {
-        leave(at, SurfaceSeen(lost.y, weight.y, weight.z, distance_, weight.x));
+        leave(at, lost.y, distance_, weight);
       }
     }
     if (AMBIENT) {

@@ -77,10 +77,41 @@ SurfaceMesh meshOf(const WlkSurfaceInfo& s) {
   return makeSurfaceMesh(places, {s.indices, size_t{3} * s.triangleCount});
 }
 
-vk::Buffer stage(vk::Device& device, const void* data, size_t bytes, VkBufferUsageFlags usage) {
-  vk::Buffer buffer(device, bytes, usage, true);
-  std::memcpy(buffer.data(), data, bytes);
+// Texels of the mesh's images, of four words each.
+constexpr VkDeviceSize TEXEL = 4 * sizeof(float);
+
+VkExtent3D meshExtent(size_t texels) {
+  constexpr size_t ROW = interface_::SURFACE_MESH_ROW;
+  return {static_cast<uint32_t>(std::min(texels, ROW)),
+          static_cast<uint32_t>((texels + ROW - 1) / ROW), 1};
+}
+
+// Room for whole rows of them.
+vk::Buffer meshRows(vk::Device& device, size_t texels) {
+  const VkExtent3D extent = meshExtent(texels);
+  return {device, TEXEL * extent.width * extent.height, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true};
+}
+
+// Of three words each.
+template <typename Triples>
+vk::Buffer stage(vk::Device& device, const Triples& triples) {
+  vk::Buffer buffer = meshRows(device, triples.size());
+  std::memset(buffer.data(), 0, buffer.size());
+  auto* to = static_cast<char*>(buffer.data());
+  for (const auto& triple : triples) {
+    std::memcpy(to, triple.data(), sizeof triple);
+    to += TEXEL;
+  }
   return buffer;
+}
+
+vk::Image meshImage(vk::Device& device, VkFormat format, const VkExtent3D& extent,
+                    VkImageUsageFlags usage) {
+  vk::ImageInfo info;
+  info.format = format;
+  info.extent = extent;
+  info.usage = usage | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  return {device, info};
 }
 
 // Everything of a new surface but its place among the context's.
@@ -95,24 +126,24 @@ void fillSurface(WlkContext_T& c, const WlkSurfaceInfo& s, const SurfaceMesh& me
   state.placeOf.assign(mesh.placeOf.begin(), mesh.placeOf.end());
   state.places = static_cast<uint32_t>(mesh.positions.size());
   state.triangles = static_cast<uint32_t>(mesh.triangles.size());
-  const size_t vertexBytes = mesh.positions.size() * sizeof mesh.positions[0];
-  const size_t indexBytes = mesh.triangles.size() * sizeof mesh.triangles[0];
-  constexpr VkBufferUsageFlags KEPT =
-      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-  const VkDeviceSize most = device.properties().limits.maxStorageBufferRange;
-  if (std::max(vertexBytes, indexBytes) > most) {
+  const VkExtent3D vertices = meshExtent(mesh.positions.size());
+  const VkExtent3D corners = meshExtent(mesh.triangles.size());
+  if (std::max(vertices.height, corners.height) > device.properties().limits.maxImageDimension2D) {
     fail(WLK_ERROR_LIMIT_EXCEEDED, s.sType, "triangleCount",
-         "a mesh of %u triangles exceeds the device's storage buffers", s.triangleCount);
+         "a mesh of %u triangles exceeds the device's images", s.triangleCount);
   }
-  state.vertices = vk::Buffer(device, vertexBytes, KEPT, false);
-  state.indices = vk::Buffer(device, indexBytes, KEPT, false);
-  state.newVertices =
-      stage(device, mesh.positions.data(), vertexBytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-  state.newIndices =
-      stage(device, mesh.triangles.data(), indexBytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-  state.phase = stage(device, state.optics.curve.data(),
-                      state.optics.curve.size() * sizeof state.optics.curve[0],
-                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  constexpr VkFormat FLOATS = VK_FORMAT_R32G32B32A32_SFLOAT;
+  constexpr VkImageUsageFlags LOADED = VK_IMAGE_USAGE_STORAGE_BIT;
+  state.vertices = meshImage(device, FLOATS, vertices, LOADED);
+  state.corners = meshImage(device, VK_FORMAT_R32G32B32A32_UINT, corners, LOADED);
+  state.newVertices = stage(device, mesh.positions);
+  state.newCorners = stage(device, mesh.triangles);
+  const auto& curve = state.optics.curve;
+  state.newPhase = vk::Buffer(device, curve.size() * TEXEL, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true);
+  static_assert(sizeof curve[0] == TEXEL);
+  std::memcpy(state.newPhase.data(), curve.data(), state.newPhase.size());
+  state.phase = meshImage(device, FLOATS, {static_cast<uint32_t>(curve.size() / 2), 2, 1},
+                          VK_IMAGE_USAGE_SAMPLED_BIT);
   state.optics.curve = {};
 }
 
@@ -228,10 +259,8 @@ WlkResult wlkSetSurfacePositions(WlkContext context, WlkSurface surface, const f
            state.placeOf.size());
     }
     checkPlaces(positions, vertexCount, vertexStride);
-    constexpr VkDeviceSize PLACE = 3 * sizeof(float);
     if (!state.newVertices) {
-      state.newVertices =
-          vk::Buffer(device, PLACE * state.places, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, true);
+      state.newVertices = meshRows(device, state.places);
     }
     // Nothing throws from here on.
     state.newLow.fill(SURFACE_POSITION_MAX);
@@ -241,8 +270,8 @@ WlkResult wlkSetSurfacePositions(WlkContext context, WlkSurface surface, const f
         continue;
       }
       const std::array<float, 3> place = vertexAt(positions, vertexStride, i);
-      std::memcpy(static_cast<char*>(state.newVertices.data()) + PLACE * state.placeOf[i],
-                  place.data(), PLACE);
+      std::memcpy(static_cast<char*>(state.newVertices.data()) + TEXEL * state.placeOf[i],
+                  place.data(), sizeof place);
       for (size_t axis = 0; axis < 3; ++axis) {
         state.newLow[axis] = std::min(state.newLow[axis], place[axis]);
         state.newHigh[axis] = std::max(state.newHigh[axis], place[axis]);

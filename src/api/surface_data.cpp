@@ -99,10 +99,10 @@ void retireSurface(WlkContext_T& c, SurfaceState& surface) {
   }
   Retired& mesh = c.retired.emplace_back(&c.memory);
   mesh.frame = c.frameIndex;
-  mesh.buffers[0] = std::move(surface.vertices);
-  mesh.buffers[1] = std::move(surface.indices);
-  mesh.buffers[2] = std::move(surface.phase);
   mesh.images[0] = std::move(surface.shell.depth);
+  mesh.images[1] = std::move(surface.phase);
+  mesh.images[2] = std::move(surface.vertices);
+  mesh.images[3] = std::move(surface.corners);
 }
 
 void uploadSurfaces(WlkContext_T& c, VkCommandBuffer commands) {
@@ -127,7 +127,10 @@ void uploadSurfaces(WlkContext_T& c, VkCommandBuffer commands) {
       Retired& entry = c.retired.emplace_back(&c.memory);
       entry.frame = c.frameIndex;
       entry.buffers[0] = std::move(surface->newVertices);
-      entry.buffers[1] = std::move(surface->newIndices);
+      entry.buffers[1] = std::move(surface->newCorners);
+      if (surface->newPhase) {
+        copyTable(c, commands, surface->newPhase, surface->phase, entry.buffers[2]);
+      }
     }
   }
 }
@@ -138,7 +141,7 @@ bool surfacesUploaded(const WlkContext_T& c) {
   }
   for (uint32_t i = 0; i < c.surfaces.slotCount(); ++i) {
     const SurfaceState* surface = c.surfaces.at(i);
-    if (surface != nullptr && surface->newIndices) {
+    if (surface != nullptr && surface->newCorners) {
       return false;
     }
   }

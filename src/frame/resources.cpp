@@ -62,8 +62,8 @@ class Draft {
 VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t volumes,
                           uint32_t surfaces, uint32_t lights, bool froxels) {
   // Of a surface's set: what is neither uniform nor image is a storage buffer.
-  constexpr uint32_t SURFACE_IMAGES = 15;
-  constexpr uint32_t SURFACE_STORES = 2;
+  constexpr uint32_t SURFACE_IMAGES = 16;
+  constexpr uint32_t SURFACE_STORES = 4;
   constexpr uint32_t SURFACE_BUFFERS =
       vk::SURFACE_BINDING_COUNT - 2 - SURFACE_IMAGES - SURFACE_STORES;
   const uint32_t more = froxels ? 1 : 0;

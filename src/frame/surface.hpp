@@ -59,11 +59,12 @@ struct SurfaceState {
   std::pmr::vector<uint32_t> placeOf;  // of the engine's vertices, or NO_PLACE
   uint32_t places = 0;
   uint32_t triangles = 0;
-  vk::Buffer vertices;
-  vk::Buffer indices;
-  vk::Buffer phase;
+  vk::Image vertices;
+  vk::Image corners;       // of triangles
+  vk::Image phase;         // P without the forward peak, below it what is in the peak
   vk::Buffer newVertices;  // until they are uploaded
-  vk::Buffer newIndices;
+  vk::Buffer newCorners;
+  vk::Buffer newPhase;
   uint64_t version = 1;  // of the vertices
   std::pmr::vector<SurfaceLight> lights;
   // The light of sky and ground on it, and what that was made of.

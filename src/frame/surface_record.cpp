@@ -40,6 +40,11 @@ bool raysEnd(const FrameCommands& c, const ViewTargets& targets) {
   return static_cast<bool>(targets.depth) || c.view.plan.ground;
 }
 
+// Of the cover of so many pixels, with the word behind those of all that each has, or without.
+VkDeviceSize coverBytes(VkDeviceSize pixels, bool further) {
+  return pixels * (sizeof(SurfaceCover) + (further ? sizeof(uint32_t) : 0));
+}
+
 class SurfaceRecorder {
  public:
   SurfaceRecorder(FrameCommands& commands, const ViewTargets& targets, const PlannedVolume& planned)
@@ -138,7 +143,7 @@ class SurfaceRecorder {
     }
     light.key = now;
     use(light, uniforms, which);
-    clear(resources().surfaceCover, sizeof(SurfaceCover) * light.size * light.size);
+    clear(resources().surfaceCover, coverBytes(VkDeviceSize{light.size} * light.size, false));
     clear(resources().surfaceFaces, sizeof(SurfaceFaces) * light.size * light.size);
     orderClears();
     triangles(surfaceCoverKey(false), uniforms, stats, index_);
@@ -211,9 +216,9 @@ class SurfaceRecorder {
     const VkDeviceSize pixels =
         VkDeviceSize{planned_.rect.x1 - planned_.rect.x0} * (planned_.rect.y1 - planned_.rect.y0);
     if (pixels > 0) {
-      clear(resources().surfaceCover, sizeof(SurfaceCover) * pixels);
-      orderClears();
       const bool ends = raysEnd(c_, targets_);
+      clear(resources().surfaceCover, coverBytes(pixels, ends));
+      orderClears();
       if (ends) {
         c_.dispatch(c_.find(surfaceEndsKey(static_cast<bool>(targets_.depth))),
                     c_.pipelines.surfaceLayout(), nullptr,
@@ -320,8 +325,10 @@ class SurfaceRecorder {
     const auto storage = [&](uint32_t binding, const vk::Buffer& buffer) {
       b.buffer(set, binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, buffer.handle(), 0, buffer.size());
     };
-    storage(vk::BIND_SURFACE_VERTICES, surface_.vertices);
-    storage(vk::BIND_SURFACE_INDICES, surface_.indices);
+    b.image(set, vk::BIND_SURFACE_VERTICES, surface_.vertices.view(), VK_NULL_HANDLE,
+            VK_IMAGE_LAYOUT_GENERAL);
+    b.image(set, vk::BIND_SURFACE_CORNERS, surface_.corners.view(), VK_NULL_HANDLE,
+            VK_IMAGE_LAYOUT_GENERAL);
     storage(vk::BIND_SURFACE_COVER, r.surfaceCover);
     storage(vk::BIND_SURFACE_LIST, r.surfaceList);
     storage(vk::BIND_SURFACE_STATE, r.frameState);
@@ -338,7 +345,6 @@ class SurfaceRecorder {
             VK_IMAGE_LAYOUT_GENERAL);
     storage(vk::BIND_SURFACE_FACE_IDS, r.surfaceFaces);
     storage(vk::BIND_SURFACE_LEVELS, r.surfaceLevels);
-    storage(vk::BIND_SURFACE_PHASE, surface_.phase);
     storage(vk::BIND_SURFACE_DISTANCES, r.distances ? r.distances : r.frameState);
     constexpr VkImageLayout READ = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     b.image(set, vk::BIND_SURFACE_DEPTH, targets_.depth ? targets_.depth.view : c_.in.dummy2d,
@@ -355,6 +361,7 @@ class SurfaceRecorder {
             READ);
     b.image(set, vk::BIND_SURFACE_SOURCE, c_.in.surfaceTables->source.view(), c_.pipelines.linear(),
             READ);
+    b.image(set, vk::BIND_SURFACE_PHASE, surface_.phase.view(), c_.pipelines.nearest(), READ);
     b.image(set, vk::BIND_SURFACE_CURVES, c_.in.surfaceTables->curves.view(), c_.pipelines.linear(),
             READ);
     const SurfaceTables& tables = *c_.in.surfaceTables;
@@ -431,7 +438,7 @@ void makeSurfaces(vk::Device& device, const WlkViewInfo& info, const SliceQualit
   const uint32_t size = surfaceMapSize(quality);
   const VkDeviceSize texels = VkDeviceSize{size} * size;
   const VkDeviceSize pixels = std::max(VkDeviceSize{info.width} * info.height, texels);
-  const VkDeviceSize bytes = pixels * sizeof(SurfaceCover);
+  const VkDeviceSize bytes = coverBytes(pixels, true);
   if (bytes > device.properties().limits.maxStorageBufferRange) {
     fail(WLK_ERROR_LIMIT_EXCEEDED, WLK_STRUCT_VIEW_INFO, "width",
          "%u x %u pixels with cloud surfaces exceed the device's storage buffers", info.width,
@@ -460,19 +467,25 @@ VkDeviceSize uploadSurface(const vk::Device& device, VkCommandBuffer commands,
                            SurfaceState& surface) {
   const vk::Dispatch& vk = device.vk();
   VkDeviceSize bytes = 0;
-  memoryBarrier(vk, commands, {COMPUTE, SHADER_ACCESS},
-                {VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT});
-  const auto copy = [&](const vk::Buffer& from, const vk::Buffer& to) {
-    if (from) {
-      const VkBufferCopy region{0, 0, from.size()};
-      vk.CmdCopyBuffer(commands, from.handle(), to.handle(), 1, &region);
-      bytes += from.size();
+  const auto copy = [&](const vk::Buffer& from, vk::Image& to) {
+    if (!from) {
+      return;
     }
+    const WlkVulkanImageState target{VK_IMAGE_LAYOUT_GENERAL, 0, VK_PIPELINE_STAGE_2_TRANSFER_BIT,
+                                     VK_ACCESS_2_TRANSFER_WRITE_BIT};
+    WlkVulkanImageState before = GENERAL_STATE;
+    before.layout = to.layout;
+    VkBufferImageCopy region{};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.imageExtent = to.info().extent;
+    imageBarrier(vk, commands, to.handle(), WHOLE_IMAGE, before, target);
+    vk.CmdCopyBufferToImage(commands, from.handle(), to.handle(), target.layout, 1, &region);
+    imageBarrier(vk, commands, to.handle(), WHOLE_IMAGE, target, GENERAL_STATE);
+    to.layout = VK_IMAGE_LAYOUT_GENERAL;
+    bytes += from.size();
   };
   copy(surface.newVertices, surface.vertices);
-  copy(surface.newIndices, surface.indices);
-  memoryBarrier(vk, commands, {VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
-                {COMPUTE, SHADER_ACCESS});
+  copy(surface.newCorners, surface.corners);
   surface.low = surface.newLow;
   surface.high = surface.newHigh;
   ++surface.version;

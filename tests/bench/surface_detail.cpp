@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 // welkin_surface_detail: times of frames of cloud surfaces with detail and without, as CSV:
-// docs/results/surface-detail.csv. Medians of interleaved rounds in ms: CPU times of all threads,
-// of a frame in which nothing changed and of one in which the light moved; and of the latter's
-// passes the time that they took.
+// docs/results/surface-detail.csv. Medians of interleaved rounds in ms, of those on quiet cores
+// where there are enough: CPU times of all threads, of a frame in which nothing changed and of one
+// in which the light moved; of the latter's passes the time that they took (of all rounds); and
+// what the cores were like (cores.hpp).
 //
 // With --count, under `valgrind --tool=callgrind --instr-atstart=no --smc-check=all-non-file`: one
 // dump of instructions for each of these frames, named as they are; no CSV.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
@@ -48,29 +50,29 @@ std::vector<SurfaceView> coarseViews() {
   return views;
 }
 
-struct Times {
-  std::vector<double> still, moving, light, eye;
-  void add(SurfaceWorld& world, int turns) {
-    world.render();  // what a change itself asks for
-    still.push_back(world.render());
-    world.turnLight(turns);
-    moving.push_back(world.render());
+// A world of its own for each kind of frame, so that a frame holds nothing that the one before
+// asked for.
+struct Frames {
+  SurfaceWorld& world;
+  bool turns = false;
+  int turn = 0;
+  std::vector<double> light{};
+  std::vector<double> eye{};
+
+  double render() {
+    if (turns) {
+      world.turnLight(++turn);
+    }
+    world.render();
     light.push_back(world.passTime(WLK_PASS_SURFACE_LIGHT));
     eye.push_back(world.passTime(WLK_PASS_SURFACE));
+    return light.back() + eye.back();
   }
 };
 
-double ratio(const std::vector<double>& with, const std::vector<double>& without) {
-  std::vector<double> ratios;
-  for (size_t i = 0; i < with.size(); ++i) {
-    ratios.push_back(with[i] / without[i]);
-  }
-  return medianOf(ratios);
-}
-
 struct Job {
   std::string noise;
-  int rounds = 5;
+  size_t rounds = 5;
   uint32_t rays = 1;
   double part = 0.05;
   bool count = false;
@@ -104,38 +106,50 @@ void count(SurfaceWorld& world, double depth) {
   }
 }
 
-void measure(SurfaceWorld& world, const SurfaceView& view, const Job& job) {
+// Still, still with detail, moving, moving with detail.
+constexpr size_t KINDS = 4;
+using Worlds = std::array<SurfaceWorld, KINDS>;
+
+void measure(Worlds& worlds, const SurfaceView& view, const Job& job) {
   const BodyMesh mesh = bodyMesh(view.body);
-  world.show(view, mesh, {false, 0, 0, WLK_QUALITY_HIGH}, job.rays);
   const double depth = job.part * heightOf(mesh);
+  const auto show = [&](SurfaceWorld& world) {
+    world.show(view, mesh, {false, 0, 0, WLK_QUALITY_HIGH}, job.rays);
+  };
   if (job.count) {
-    count(world, depth);
+    show(worlds[0]);
+    count(worlds[0], depth);
     return;
   }
-  Times plain;
-  Times detailed;
-  Times warmUp;  // makes pipelines
-  int turns = 0;
-  for (int i = 0; i <= job.rounds; ++i) {
-    for (const bool with : {false, true}) {
-      world.detail(with ? depth : 0);
-      (i == 0 ? warmUp : with ? detailed : plain).add(world, ++turns);
-    }
+  std::vector<Frames> frames;
+  for (size_t i = 0; i < KINDS; ++i) {
+    show(worlds[i]);
+    worlds[i].detail(i % 2 == 0 ? 0 : depth);
+    frames.push_back({worlds[i], i >= 2});
   }
+  std::vector<Copies> methods;
+  for (Frames& kind : frames) {
+    methods.push_back({[&kind] { return kind.render(); }});
+  }
+  constexpr size_t WARM_UPS = 2;  // makes pipelines
+  const std::vector<Timing> times = interleave(methods, 0, WARM_UPS, job.rounds);
   std::printf("%s,%s,%zu,%u,%u,%g", job.noise.c_str(), view.name.c_str(), mesh.indices.size() / 3,
               static_cast<uint32_t>(view.width) * job.rays,
               static_cast<uint32_t>(view.height) * job.rays, job.part);
-  const auto print = [&](std::vector<double> Times::*of, bool withRatio) {
-    std::printf(",%.0f,%.0f", medianOf(plain.*of), medianOf(detailed.*of));
-    if (withRatio) {
-      std::printf(",%.2f", ratio(detailed.*of, plain.*of));
-    }
-  };
-  print(&Times::still, true);
-  print(&Times::moving, true);
-  print(&Times::light, false);
-  print(&Times::eye, false);
-  std::printf("\n");
+  for (size_t i = 0; i < KINDS; i += 2) {
+    std::printf(",%.0f,%.0f,%.2f", times[i].cpu, times[i + 1].cpu, times[i + 1].cpu / times[i].cpu);
+  }
+  std::printf(",%.0f,%.0f,%.0f,%.0f", medianOf(frames[2].light), medianOf(frames[3].light),
+              medianOf(frames[2].eye), medianOf(frames[3].eye));
+  size_t rounds = times[0].rounds;
+  size_t quiet = times[0].quietRounds;
+  double work_ns = 0;
+  for (const Timing& one : times) {
+    rounds = std::min(rounds, one.rounds);
+    quiet = std::min(quiet, one.quietRounds);
+    work_ns = std::max(work_ns, one.cores.work_ns);
+  }
+  std::printf(",%zu,%zu,%.0f\n", rounds, quiet, work_ns);
   std::fflush(stdout);
 }
 
@@ -160,12 +174,14 @@ int main(int argc, char** argv) {
   app.add_flag("!--no-header", header, "rows only");
   CLI11_PARSE(app, argc, argv);
   try {
-    SurfaceWorld world(canonicalCurve());
+    const CanonicalCurve curve = canonicalCurve();
+    Worlds worlds{SurfaceWorld(curve), SurfaceWorld(curve), SurfaceWorld(curve),
+                  SurfaceWorld(curve)};
     if (header) {
       std::printf(
           "noise,view,triangles,width,height,depth,still_ms,still_detail_ms,still_ratio,"
           "moving_ms,moving_detail_ms,moving_ratio,light_ms,light_detail_ms,eye_ms,"
-          "eye_detail_ms\n");
+          "eye_detail_ms,rounds,quiet_rounds,core_work_ns\n");
     }
     for (const SurfaceView& view : scene == "coarse" ? coarseViews() : surfaceViews()) {
       if (!names.empty() && std::find(names.begin(), names.end(), view.name) == names.end()) {
@@ -173,7 +189,7 @@ int main(int argc, char** argv) {
       }
       for (const double part : parts) {
         job.part = part;
-        measure(world, view, job);
+        measure(worlds, view, job);
       }
     }
   } catch (const std::exception& error) {

@@ -20,19 +20,21 @@ vec3 surfaceVertex(uint i) {
   return vec3(numbers[3u * i], numbers[3u * i + 1u], numbers[3u * i + 2u]);
 }
 
-uint surfaceIndex(uint k) {
-  return floatBitsToUint(numbers[3u * uint(VERTICES) + k]);
+uvec3 surfaceCorners(uint triangle) {
+  uint first = 3u * (uint(VERTICES) + triangle);
+  return floatBitsToUint(vec3(numbers[first], numbers[first + 1u], numbers[first + 2u]));
 }
 
 void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing, uint triangle);
 #include "pass/surface_cover.glsl"
 #include "pass/surface_cross.glsl"
 
-// In the word for a ray's end: how often it leaves less how often it enters.
+// In the word behind those of all pixels: how often a ray leaves less how often it enters.
 void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing,
                   uint triangle) {
   surfaceCount(at, crossing, surfaceStep(s, crossing.depth));
-  atomicAdd(surfaceWords[(at + 1u) * SURFACE_COVER_WORDS - 1u],
+  uint pixels = uint((s.rect.z - s.rect.x) * (s.rect.w - s.rect.y));
+  atomicAdd(surfaceWords[pixels * SURFACE_COVER_WORDS + at],
             crossing.facing > 0.0f ? 0xffffffffu : 1u);
 }
 

@@ -46,12 +46,17 @@ SurfaceUniforms uniformsOf(bool parallel, float eye) {
   return u;
 }
 
+struct Covered {
+  SurfaceCover cover{};
+  uint32_t passed = 0;  // how often a ray leaves less how often it enters
+};
+
 float along(const vec4& row, const vec3& p) {
   return row.x * p.x + row.y * p.y + row.z * p.z + row.w;
 }
 
-std::vector<SurfaceCover> onCpu(const ClosedMesh& mesh, const SurfaceUniforms& u) {
-  std::vector<SurfaceCover> cover(size_t{WIDTH} * HEIGHT);
+std::vector<Covered> onCpu(const ClosedMesh& mesh, const SurfaceUniforms& u) {
+  std::vector<Covered> cover(size_t{WIDTH} * HEIGHT);
   for (const auto& t : mesh.triangle) {
     vec3 corner[3];
     vec3 depths(0.0f);
@@ -71,7 +76,8 @@ std::vector<SurfaceCover> onCpu(const ClosedMesh& mesh, const SurfaceUniforms& u
         }
         const auto step = static_cast<int>(
             std::clamp((hit.depth - u.steps.x) * u.steps.y, 0.0f, u.steps.z) + 0.5f);
-        SurfaceCover& c = cover[static_cast<size_t>(y * WIDTH + x)];
+        Covered& pixel = cover[static_cast<size_t>(y * WIDTH + x)];
+        SurfaceCover& c = pixel.cover;
         if (hit.facing > 0.0f) {
           c.front = std::max(c.front, ~static_cast<uint32_t>(step));
         } else {
@@ -79,16 +85,15 @@ std::vector<SurfaceCover> onCpu(const ClosedMesh& mesh, const SurfaceUniforms& u
           c.back = std::max(c.back, static_cast<uint32_t>(step));
         }
         c.chord -= static_cast<int>(hit.facing) * step;
-        c.end -= static_cast<uint32_t>(
-            static_cast<int>(hit.facing));  // here what the kernel counts there
+        pixel.passed -= static_cast<uint32_t>(static_cast<int>(hit.facing));
       }
     }
   }
   return cover;
 }
 
-std::vector<SurfaceCover> onDevice(support::ComputeRunner& runner, const ClosedMesh& mesh,
-                                   SurfaceUniforms u) {
+std::vector<Covered> onDevice(support::ComputeRunner& runner, const ClosedMesh& mesh,
+                              SurfaceUniforms u) {
   const auto triangles = static_cast<uint32_t>(mesh.triangle.size());
   constexpr uint32_t STRIPS = 3;
   u.triangle = {triangles, (HEIGHT + STRIPS - 1) / STRIPS, 0, 0};
@@ -105,10 +110,13 @@ std::vector<SurfaceCover> onDevice(support::ComputeRunner& runner, const ClosedM
   }
   const std::vector<float> output =
       runner.run(surface_cover_spv, static_cast<int>(mesh.position.size()), input,
-                 size_t{WIDTH} * HEIGHT * sizeof(SurfaceCover) / sizeof(float),
+                 size_t{WIDTH} * HEIGHT * (SURFACE_COVER_WORDS + 1),
                  STRIPS * ((triangles + SURFACE_LANES - 1) / SURFACE_LANES));
-  std::vector<SurfaceCover> cover(size_t{WIDTH} * HEIGHT);
-  std::memcpy(cover.data(), output.data(), cover.size() * sizeof(SurfaceCover));
+  std::vector<Covered> cover(size_t{WIDTH} * HEIGHT);
+  for (size_t i = 0; i < cover.size(); ++i) {
+    std::memcpy(&cover[i].cover, &output[i * SURFACE_COVER_WORDS], sizeof(SurfaceCover));
+    cover[i].passed = std::bit_cast<uint32_t>(output[cover.size() * SURFACE_COVER_WORDS + i]);
+  }
   return cover;
 }
 
@@ -126,23 +134,23 @@ TEST(SurfaceCover, DeviceCoversAsTheModelTextSays) {
        {support::boxMesh(), support::sphereMesh(3), support::torusMesh()}) {
     for (const Case& c : {Case{true, 0, 0}, Case{false, -3, 0}, Case{false, -1.5f, 0}}) {
       const SurfaceUniforms u = uniformsOf(c.parallel, c.eye);
-      const std::vector<SurfaceCover> expected = onCpu(mesh, u);
-      const std::vector<SurfaceCover> found = onDevice(runner, mesh, u);
+      const std::vector<Covered> expected = onCpu(mesh, u);
+      const std::vector<Covered> found = onDevice(runner, mesh, u);
       int covered = 0;
       int moved = 0;
       for (size_t i = 0; i < found.size(); ++i) {
-        ASSERT_EQ(static_cast<int>(found[i].end), c.net) << i;
-        covered += found[i].back > 0 ? 1 : 0;
+        ASSERT_EQ(static_cast<int>(found[i].passed), c.net) << i;
+        covered += found[i].cover.back > 0 ? 1 : 0;
         // A pixel on a silhouette may fall to either side.
-        moved += (found[i].back > 0) != (expected[i].back > 0) ? 1 : 0;
-        if (found[i].back > 0 && expected[i].back > 0) {
-          EXPECT_NEAR(found[i].chord, expected[i].chord, 4 * STEPS) << i;
-          EXPECT_NEAR(static_cast<double>(found[i].back), static_cast<double>(expected[i].back),
-                      STEPS);
-          EXPECT_NEAR(static_cast<double>(~found[i].leave), static_cast<double>(~expected[i].leave),
-                      STEPS);
-          EXPECT_NEAR(static_cast<double>(~found[i].front), static_cast<double>(~expected[i].front),
-                      STEPS);
+        moved += (found[i].cover.back > 0) != (expected[i].cover.back > 0) ? 1 : 0;
+        if (found[i].cover.back > 0 && expected[i].cover.back > 0) {
+          EXPECT_NEAR(found[i].cover.chord, expected[i].cover.chord, 4 * STEPS) << i;
+          EXPECT_NEAR(static_cast<double>(found[i].cover.back),
+                      static_cast<double>(expected[i].cover.back), STEPS);
+          EXPECT_NEAR(static_cast<double>(~found[i].cover.leave),
+                      static_cast<double>(~expected[i].cover.leave), STEPS);
+          EXPECT_NEAR(static_cast<double>(~found[i].cover.front),
+                      static_cast<double>(~expected[i].cover.front), STEPS);
         }
       }
       EXPECT_GT(covered, WIDTH * HEIGHT / 8);
@@ -162,15 +170,15 @@ TEST(SurfaceCover, FarFromTheFirstPixelNoCrossingIsLost) {
        {support::boxMesh(), support::sphereMesh(5), support::torusMesh()}) {
     for (const bool parallel : {true, false}) {
       SurfaceUniforms u = uniformsOf(parallel, -3);
-      const std::vector<SurfaceCover> expected = onDevice(runner, mesh, u);
+      const std::vector<Covered> expected = onDevice(runner, mesh, u);
       u.pixelX += float{FAR} * u.pixelW;
       u.pixelY += float{FAR} * u.pixelW;
       u.rect = {FAR, FAR, FAR + WIDTH, FAR + HEIGHT};
-      const std::vector<SurfaceCover> found = onDevice(runner, mesh, u);
+      const std::vector<Covered> found = onDevice(runner, mesh, u);
       int moved = 0;
       for (size_t i = 0; i < found.size(); ++i) {
-        ASSERT_EQ(found[i].end, 0u) << i;
-        moved += (found[i].back > 0) != (expected[i].back > 0) ? 1 : 0;
+        ASSERT_EQ(found[i].passed, 0u) << i;
+        moved += (found[i].cover.back > 0) != (expected[i].cover.back > 0) ? 1 : 0;
       }
       // Of some 150 pixels on outlines one is expected within 4e-3 of them on either side.
       EXPECT_LE(moved, 2);
@@ -183,12 +191,12 @@ TEST(SurfaceCover, FromInsideEveryPixelLeavesOnce) {
   support::ComputeRunner runner;
   for (const ClosedMesh& mesh : {support::boxMesh(), support::sphereMesh(3)}) {
     const SurfaceUniforms u = uniformsOf(false, 0.3f);
-    const std::vector<SurfaceCover> expected = onCpu(mesh, u);
-    const std::vector<SurfaceCover> found = onDevice(runner, mesh, u);
+    const std::vector<Covered> expected = onCpu(mesh, u);
+    const std::vector<Covered> found = onDevice(runner, mesh, u);
     for (size_t i = 0; i < found.size(); ++i) {
-      ASSERT_EQ(found[i].end, 1u) << i;
-      ASSERT_EQ(found[i].front, 0u) << i;
-      ASSERT_NEAR(found[i].chord, expected[i].chord, 64) << i;
+      ASSERT_EQ(found[i].passed, 1u) << i;
+      ASSERT_EQ(found[i].cover.front, 0u) << i;
+      ASSERT_NEAR(found[i].cover.chord, expected[i].cover.chord, 64) << i;
     }
   }
 }
@@ -198,10 +206,10 @@ TEST(SurfaceCover, RepeatsItselfBitByBit) {
   support::ComputeRunner runner;
   const ClosedMesh mesh = support::sphereMesh(4);
   const SurfaceUniforms u = uniformsOf(false, -1.5f);
-  const std::vector<SurfaceCover> first = onDevice(runner, mesh, u);
+  const std::vector<Covered> first = onDevice(runner, mesh, u);
   for (int i = 0; i < 3; ++i) {
-    const std::vector<SurfaceCover> again = onDevice(runner, mesh, u);
-    ASSERT_EQ(std::memcmp(first.data(), again.data(), first.size() * sizeof(SurfaceCover)), 0);
+    const std::vector<Covered> again = onDevice(runner, mesh, u);
+    ASSERT_EQ(std::memcmp(first.data(), again.data(), first.size() * sizeof(Covered)), 0);
   }
 }
 
