@@ -23,7 +23,7 @@ VolumeLayer volumesBefore(uvec3 froxel) {
   if (volumes.any) {
     uint marched = uint(min(slice, frame.froxelRange.y));
     uint row = marched * uint(frame.viewport.y) + froxel.y;
-    volumes.state = frameState[row * uint(frame.viewport.x) + froxel.x];
+    volumes.state = stateAt(row * uint(frame.viewport.x) + froxel.x);
   }
   return volumes;
 }

@@ -15,6 +15,8 @@ layout(constant_id = 11) const bool ALL_LIGHT = false;
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
 layout(set = 0, binding = 1, std430) readonly buffer FrameState { vec4 frameState[]; };
+// The same buffer.
+layout(set = 0, binding = 15) uniform usamplerBuffer frameTexels;
 layout(set = 0, binding = 2) uniform sampler2D depthImage;
 layout(set = 0, binding = 6, std430) buffer Counters { uint nonFinite; };
 layout(set = 0, binding = 7, std430) readonly buffer FogCurve { vec4 fogCurve[]; };
@@ -23,6 +25,7 @@ layout(set = 0, binding = 9) uniform sampler3D skyPeak;
 layout(set = 0, binding = 10) uniform sampler2D skyMoments;
 layout(set = 0, binding = 13) uniform sampler3D skyFog;
 
+#include "texels.glsl"
 #include "../interface/sky_table.glsl"
 #include "ray.glsl"
 #include "fog_curve.glsl"
@@ -142,8 +145,15 @@ bool covered(uvec2 pixel) {
          p.y < frame.volumeRect.w;
 }
 
+vec4 stateAt(uint index) {
+  if (TEXELS) {
+    return uintBitsToFloat(texelFetch(frameTexels, int(index)));
+  }
+  return frameState[index];
+}
+
 vec4 volumeState(uvec2 pixel) {
-  return frameState[pixel.y * uint(frame.viewport.x) + pixel.x];
+  return stateAt(pixel.y * uint(frame.viewport.x) + pixel.x);
 }
 
 // What volumes left on a ray; `any` where they may cover it.

@@ -63,8 +63,8 @@ Ray rayAt(ivec2 number) {
   uvec2 ofView = uvec2(clamp(number, firstRay(), lastRay()));
   uint at = secondAddress(ofView * (TO_SECONDS ? 2u : 1u));
   Ray ray;
-  ray.state = secondRays[at];
-  ray.sums = DEPTH_ENABLED || DISTANCE ? secondRays[at + 1u] : vec4(0.0f);
+  ray.state = secondRow(at);
+  ray.sums = DEPTH_ENABLED || DISTANCE ? secondRow(at + 1u) : vec4(0.0f);
   return ray;
 }
 

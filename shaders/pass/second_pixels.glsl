@@ -6,6 +6,8 @@
 layout(set = 0, binding = 11, std430) buffer SecondPixels { uint seconds[]; };
 // The same buffer: four words at once cost the driver hardly more than one.
 layout(set = 0, binding = 11, std430) buffer SecondRays { vec4 secondRays[]; };
+layout(set = 0, binding = 21) uniform usamplerBuffer secondTexels;
+#include "texels.glsl"
 
 // Words of a second pixel.
 const uint SECOND_WORDS = DEPTH_ENABLED || DISTANCE ? SECOND_SIZE : SECOND_SIZE / 2u;
@@ -31,6 +33,14 @@ uvec2 lastFourth() {
 // In secondRays.
 uint secondAddress(uvec2 second) {
   return (LIST_HEAD + SECOND_WORDS * (second.y * secondsOfView().x + second.x)) / 4u;
+}
+
+// What an earlier dispatch has left there.
+vec4 secondRow(uint address) {
+  if (TEXELS) {
+    return uintBitsToFloat(texelFetch(secondTexels, int(address)));
+  }
+  return secondRays[address];
 }
 
 uint listAddress() {

@@ -17,7 +17,7 @@ void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing cross
 
 void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing,
                   uint triangle) {
-  uint end = ENDS ? ~surfaceWords[coverFurther(at)] : 0xffffffffu;
+  uint end = ENDS ? ~furtherWord(at) : 0xffffffffu;
   surfaceCount(at, crossing, min(surfaceStep(s, crossing.depth), end));
 }
 

@@ -2,8 +2,8 @@
 // Triangles into the pixels of a SurfaceCover buffer: a workgroup has a triangle for each lane;
 // those that cover many pixels are shared by some lanes, or by all.
 //
-// Before: `surfaceVertex(i)` a mesh position, `surfaceCorners(triangle)`, and `surfaceCross(uniforms,
-// pixel, index in the buffer, crossing, triangle)`.
+// Before: `surfaceVertex(i)` a mesh position, `surfaceCorners(triangle)`, and
+// `surfaceCross(uniforms, pixel, index in the buffer, crossing, triangle)`.
 
 // Beside the exact box of a triangle, in pixels, for the rounding of its corners: in pictures of
 // 16384 they are known to 4e-3 (2.5 units in the last place of a division, and those of what is

@@ -17,8 +17,8 @@ void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing cross
                   uint triangle) {
   uint step_ = surfaceStep(s, crossing.depth);
   bool enters = crossing.facing > 0.0f;
-  uint word = at * SURFACE_COVER_WORDS + (enters ? SURFACE_FRONT : SURFACE_BACK);
-  if (surfaceWords[word] == (enters ? ~step_ : step_)) {
+  SurfaceCover cover = coverOf(at);
+  if (enters ? cover.front == ~step_ : cover.back == step_) {
     atomicMax(faceWords[2u * at + (enters ? 0u : 1u)], triangle + 1u);
   }
 }

@@ -28,7 +28,7 @@ const uint SECONDS = HALF ? 0x0505u : 0xffffu;  // bits of a cell, row by row
 bool surfaceCovers(ivec2 pixel) {
   bool inside = all(greaterThanEqual(pixel, surface.rect.xy)) &&
                 all(lessThan(pixel, surface.rect.zw));
-  return inside && surfaceCover[coverIndex(inside ? pixel : surface.rect.xy)].chord > 0;
+  return inside && coverOf(coverIndex(inside ? pixel : surface.rect.xy)).chord > 0;
 }
 
 // What a pixel without the surface is.

@@ -50,7 +50,7 @@ ShellRay shellRay(vec2 place) {
 
 MapTexel fromTriangles(uvec2 texel, uint size) {
   uint at = texel.y * size + texel.x;
-  SurfaceCover cover = surfaceCover[at];
+  SurfaceCover cover = coverOf(at);
   MapTexel result;
   result.column = vec4(0.0f);
   result.face = vec4(0.0f);

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 // What the passes of a surface read: its constants, its mesh, and what its triangles cover.
 #include "../interface/surface.glsl"
+#include "texels.glsl"
 
 layout(set = 0, binding = 1, std140) uniform Surface { SurfaceUniforms surface; };
 // Positions and triangles, row by row. Images, as texels cost drivers such as lavapipe less than a
 // word of a buffer does.
 layout(set = 0, binding = 2, rgba32f) readonly uniform image2D vertices;
 layout(set = 0, binding = 3, rgba32ui) readonly uniform uimage2D triangles;
-layout(set = 0, binding = 4, std430) buffer Cover { SurfaceCover surfaceCover[]; };
-// The same buffer.
 layout(set = 0, binding = 4, std430) buffer CoverWords { uint surfaceWords[]; };
+// The same buffer.
+layout(set = 0, binding = 4, std430) buffer CoverRows { uvec4 surfaceRows[]; };
+layout(set = 0, binding = 30) uniform usamplerBuffer coverTexels;
 layout(set = 0, binding = 23) uniform sampler3D shellNoise;
 layout(set = 0, binding = 25) uniform sampler3D shellField;
 
@@ -25,8 +27,30 @@ uvec3 surfaceCorners(uint triangle) {
   return imageLoad(triangles, meshTexel(triangle)).xyz;
 }
 
+// A pixel's row, of an earlier dispatch.
+uvec4 coverRow(uint at) {
+  if (TEXELS) {
+    return texelFetch(coverTexels, int(at));
+  }
+  return surfaceRows[at];
+}
+
+SurfaceCover coverOf(uint at) {
+  uvec4 row = coverRow(at);
+  return SurfaceCover(row.x, row.y, row.z, int(row.w));
+}
+
 // The word of a pixel behind those of all.
 uint coverFurther(uint at) {
   ivec2 size = surface.rect.zw - surface.rect.xy;
   return SURFACE_COVER_WORDS * uint(size.x) * uint(size.y) + at;
+}
+
+// And what an earlier dispatch left there.
+uint furtherWord(uint at) {
+  uint word = coverFurther(at);
+  if (TEXELS) {
+    return coverRow(word / 4u)[word % 4u];
+  }
+  return surfaceWords[word];
 }

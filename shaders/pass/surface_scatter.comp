@@ -20,7 +20,7 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "surface_mesh.glsl"
 #include "surface_list.glsl"
-layout(set = 0, binding = 4, std430) readonly buffer SeenPoints { vec4 seen[]; };
+layout(set = 0, binding = 31) uniform usamplerBuffer frameTexels;
 #include "ray.glsl"
 #include "surface_light.glsl"
 #include "surface_place.glsl"
@@ -42,13 +42,19 @@ void main() {
     return;
   }
   uint at = coverIndex(pixel);
-  vec4 point = seen[at];
-  vec3 weight = vec3(uintBitsToFloat(surfaceWords[coverFurther(at)]), point.yz);
+  vec4 point = uintBitsToFloat(coverRow(at));
+  vec3 weight = vec3(uintBitsToFloat(furtherWord(at)), point.yz);
   vec3 direction = pixelDirection(frame, vec2(pixel));
   vec3 light = scatteredAt(point.w * direction, direction, point.x);
   if (HALF && slice.firstSlab == SURFACE_LIST_SECONDS) {
     imageStore(secondStore, pixel / 2, vec4(light, point.w));
   }
   uint index = uint(pixel.y) * uint(frame.viewport.x) + uint(pixel.x);
-  frameState[index].xyz += light * weight;
+  vec4 state;
+  if (TEXELS) {
+    state = uintBitsToFloat(texelFetch(frameTexels, int(index)));
+  } else {
+    state = frameState[index];
+  }
+  frameState[index].xyz = state.xyz + light * weight;
 }

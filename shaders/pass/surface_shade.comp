@@ -30,7 +30,7 @@ layout(set = 0, binding = 10) uniform sampler2D columns;
 layout(set = 0, binding = 11) uniform sampler2D faces;
 layout(set = 0, binding = 12) uniform sampler3D source;
 layout(set = 0, binding = 13) uniform sampler2D curves;
-// P without the forward peak, below it what is in the peak, 1/sr: RGB at the nodes of a phase curve.
+// At nodes of a phase curve, RGB, 1/sr: P without the forward peak, below it what is in the peak.
 layout(set = 0, binding = 14) uniform sampler2D phase;
 layout(set = 0, binding = 15, std430) readonly buffer FogCurve { vec4 fogCurve[]; };
 layout(set = 0, binding = 16) uniform sampler3D skyTable;
@@ -43,7 +43,7 @@ layout(set = 0, binding = 22) uniform sampler2D skyShare;
 layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "surface_mesh.glsl"
-layout(set = 0, binding = 4, std430) buffer CoverRows { uvec4 surfaceRows[]; };
+layout(set = 0, binding = 31) uniform usamplerBuffer frameTexels;
 #include "surface_list.glsl"
 #include "../interface/sky_table.glsl"
 #include "surface_spread.glsl"
@@ -79,12 +79,7 @@ Inside insideOf(SurfaceCover cover, float metre, float first) {
   return inside;
 }
 
-// By one variable, as the record is to take the cover's place.
-SurfaceCover coverAt(uint index) {
-  uvec4 row = surfaceRows[index];
-  return SurfaceCover(row.x, row.y, row.z, int(row.w));
-}
-
+// In the place of the cover, all of which goes into what is left.
 void leave(uint index, float lost, float range, vec3 weight) {
   surfaceRows[index] = floatBitsToUint(vec4(lost, weight.yz, range));
   surfaceWords[coverFurther(index)] = floatBitsToUint(weight.x);
@@ -116,6 +111,14 @@ vec3 phaseAt(int table, vec3 direction) {
   int i = min(int(x), CURVE_NODES - 2);
   return mix(texelFetch(phase, ivec2(i, table), 0).xyz,
              texelFetch(phase, ivec2(i + 1, table), 0).xyz, x - float(i));
+}
+
+// What is in front.
+vec4 stateBefore(uint index) {
+  if (TEXELS) {
+    return uintBitsToFloat(texelFetch(frameTexels, int(index)));
+  }
+  return frameState[index];
 }
 
 // The source that sky and ground make at a point: in the slab along the vertical that the footprint
@@ -165,7 +168,7 @@ void main() {
     return;
   }
   uint at = coverIndex(pixel);
-  SurfaceCover cover = coverAt(at);
+  SurfaceCover cover = coverOf(at);
   uint index = uint(pixel.y) * uint(frame.viewport.x) + uint(pixel.x);
   vec2 hidden = vec2(0.0f);
   vec3 direction = pixelDirection(frame, vec2(pixel));
@@ -250,7 +253,7 @@ void main() {
 #endif
   bool first = (slice.flags & SLICE_FIRST_VOLUME) != 0u;
   vec3 scattered = vec3(0.0f);
-  vec4 front = first ? vec4(0.0f, 0.0f, 0.0f, 1.0f) : frameState[index];
+  vec4 front = first ? vec4(0.0f, 0.0f, 0.0f, 1.0f) : stateBefore(index);
   if (LIGHT_ENABLED || AMBIENT) {
     AirAt air = airAt(nodes, distance_);
     if (LIGHT_ENABLED) {

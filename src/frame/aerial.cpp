@@ -68,9 +68,9 @@ void makeAerial(vk::Device& device, const WlkAerialPerspective& info, uint32_t f
   a.slotStride = a.volumeOffset + r.volumeCapacity * r.volumeStride;
   a.uniforms =
       vk::Buffer(device, a.slotStride * framesInFlight, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, true);
-  a.frameState = vk::Buffer(device, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
+  a.frameState = vk::Buffer(device, bytes, vk::ROWS, false);
   if (batches) {
-    a.volumeState = vk::Buffer(device, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
+    a.volumeState = vk::Buffer(device, bytes, vk::ROWS, false);
   }
 }
 
@@ -145,6 +145,7 @@ void recordAerial(FrameCommands& c, const ViewTargets& targets, VkDeviceSize cou
                     a.uniforms.handle(), c.in.slot * a.slotStride, sizeof(FrameUniforms));
   c.bindings.buffer(set, vk::BIND_COMPOSITE_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                     a.frameState.handle(), 0, a.frameState.size());
+  c.bindings.texels(set, vk::BIND_COMPOSITE_STATE_TEXELS, a.frameState);
   for (const uint32_t unused : {vk::BIND_COMPOSITE_DEPTH, vk::BIND_COMPOSITE_INPUT}) {
     c.bindings.image(set, unused, c.in.dummy2d, c.pipelines.nearest(),
                      VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);

@@ -65,4 +65,23 @@ void Bindings::buffer(BoundSet& set, uint32_t binding, VkDescriptorType type, Vk
   write(w);
 }
 
+void Bindings::texels(BoundSet& set, uint32_t binding, const vk::Buffer& buffer) {
+  const VkBufferView view = buffer.texels();
+  if (view == VK_NULL_HANDLE) {
+    this->buffer(set, binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, buffer.handle(), 0,
+                 buffer.size());
+    return;
+  }
+  if (!changed(set, binding, mix(bits(view), 0, 0))) {
+    return;
+  }
+  VkWriteDescriptorSet w{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+  w.dstSet = set.set;
+  w.dstBinding = binding;
+  w.descriptorCount = 1;
+  w.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+  w.pTexelBufferView = &view;
+  write(w);
+}
+
 }  // namespace welkin

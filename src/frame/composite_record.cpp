@@ -73,6 +73,7 @@ void bindComposite(Bindings& bindings, const vk::Pipelines& pipelines, ViewState
                   r.uniforms.handle(), in.slot * r.slotStride, sizeof(interface_::FrameUniforms));
   bindings.buffer(set, vk::BIND_COMPOSITE_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                   r.frameState.handle(), 0, r.frameState.size());
+  bindings.texels(set, vk::BIND_COMPOSITE_STATE_TEXELS, r.frameState);
   bindings.image(set, vk::BIND_COMPOSITE_DEPTH, targets.depth ? targets.depth.view : in.dummy2d,
                  pipelines.nearest(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   const bool blend = view.info.composite == WLK_COMPOSITE_BLEND;

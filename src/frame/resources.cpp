@@ -64,8 +64,9 @@ VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t vol
   // Of a surface's set: what is neither uniform nor image is a storage buffer.
   constexpr uint32_t SURFACE_IMAGES = 16;
   constexpr uint32_t SURFACE_STORES = 4;
+  constexpr uint32_t SURFACE_TEXELS = 2;
   constexpr uint32_t SURFACE_BUFFERS =
-      vk::SURFACE_BINDING_COUNT - 2 - SURFACE_IMAGES - SURFACE_STORES;
+      vk::SURFACE_BINDING_COUNT - 2 - SURFACE_IMAGES - SURFACE_STORES - SURFACE_TEXELS;
   const uint32_t more = froxels ? 1 : 0;
   const uint32_t spread = (lights - 1) * volumes;  // sets of further grids
   const uint32_t sets =
@@ -82,7 +83,11 @@ VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t vol
                                     SURFACE_STORES * SURFACE_PICTURES * surfaces + 5 + 2 * more)},
       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                            slots * ((24 + 14 * more) * volumes + 5 * spread +
-                                    SURFACE_IMAGES * SURFACE_PICTURES * surfaces + 10 + 8 * more)}};
+                                    SURFACE_IMAGES * SURFACE_PICTURES * surfaces + 10 + 8 * more)},
+      VkDescriptorPoolSize{
+          device.texels() ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
+                          : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+          slots * ((1 + more) * (volumes + 1) + SURFACE_TEXELS * SURFACE_PICTURES * surfaces)}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.maxSets = sets;
   info.poolSizeCount = static_cast<uint32_t>(sizes.size());
@@ -347,7 +352,7 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   const VkDeviceSize pixels = VkDeviceSize{info.width} * info.height;
   const uint32_t layers = volumeCount + features.surfaces;
   const VkDeviceSize stateBytes = layers > 0 ? pixels * 16 : 16;
-  r.frameState = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
+  r.frameState = vk::Buffer(device, stateBytes, vk::ROWS, false);
   if (view.volumeDistance) {
     r.distances = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
   }
@@ -357,8 +362,7 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   if ((layers > 1 && volumeCount > 0 && batches > 1 && features.batches) || seconds) {
     const VkDeviceSize bytes = seconds ? std::max(secondsBytes(info), stateBytes) : stateBytes;
     r.volumeState =
-        vk::Buffer(device, bytes,
-                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, false);
+        vk::Buffer(device, bytes, vk::ROWS | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, false);
   }
   makeSurfaces(device, info, quality, features.surfaces, r);
   if (volumeCount > 0) {

@@ -330,6 +330,8 @@ class SurfaceRecorder {
     b.image(set, vk::BIND_SURFACE_CORNERS, surface_.corners.view(), VK_NULL_HANDLE,
             VK_IMAGE_LAYOUT_GENERAL);
     storage(vk::BIND_SURFACE_COVER, r.surfaceCover);
+    b.texels(set, vk::BIND_SURFACE_COVER_TEXELS, r.surfaceCover);
+    b.texels(set, vk::BIND_SURFACE_STATE_TEXELS, r.frameState);
     storage(vk::BIND_SURFACE_LIST, r.surfaceList);
     storage(vk::BIND_SURFACE_STATE, r.frameState);
     const SurfaceLight& up = up_ != nullptr ? *up_ : light_;
@@ -446,7 +448,7 @@ void makeSurfaces(vk::Device& device, const WlkViewInfo& info, const SliceQualit
   }
   constexpr VkBufferUsageFlags CLEARED =
       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-  r.surfaceCover = vk::Buffer(device, bytes, CLEARED, false);
+  r.surfaceCover = vk::Buffer(device, bytes, vk::ROWS | CLEARED, false);
   r.surfaceList = vk::Buffer(device, surfaceListBytes(info, quality),
                              CLEARED | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, false);
   vk::ImageInfo seconds;

@@ -386,6 +386,7 @@ class VolumeRecorder {
              target.frameState.handle(), 0, target.frameState.size());
     b.buffer(set, vk::BIND_VOLUME_STATE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
              target.volumeState.handle(), 0, target.volumeState.size());
+    b.texels(set, vk::BIND_SECOND_TEXELS, target.volumeState);
     const vk::Buffer& distances = r.distances ? r.distances : r.frameState;
     b.buffer(set, vk::BIND_DISTANCES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, distances.handle(), 0,
              distances.size());

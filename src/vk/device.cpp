@@ -9,6 +9,29 @@
 
 namespace welkin::vk {
 
+namespace {
+
+// Sampled images and texels that a set of Welkin's has at most: devices may have as few as 16.
+constexpr uint32_t MOST_SAMPLED = 18;
+
+bool texelsServe(const VkPhysicalDeviceLimits& limits) {
+  return limits.maxTexelBufferElements >= limits.maxStorageBufferRange / ROW_BYTES &&
+         limits.maxPerStageDescriptorSampledImages >= MOST_SAMPLED &&
+         limits.maxDescriptorSetSampledImages >= MOST_SAMPLED;
+}
+
+VkBufferView texelsOf(const Device& device, VkBuffer buffer) {
+  VkBufferViewCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
+  info.buffer = buffer;
+  info.format = VK_FORMAT_R32G32B32A32_UINT;
+  info.range = VK_WHOLE_SIZE;
+  VkBufferView view = VK_NULL_HANDLE;
+  check(device.vk().CreateBufferView(device.handle(), &info, nullptr, &view), "vkCreateBufferView");
+  return view;
+}
+
+}  // namespace
+
 Device::Device(const DeviceInfo& info, std::pmr::memory_resource* host) : info_(info) {
   loadInstanceFunctions(vk_, info.getInstanceProcAddr, info.instance);
   vk_.GetPhysicalDeviceProperties(info.physicalDevice, &properties_);
@@ -27,6 +50,7 @@ Device::Device(const DeviceInfo& info, std::pmr::memory_resource* host) : info_(
     }
   }
   loadDeviceFunctions(vk_, info.device, info.headless);
+  texels_ = texelsServe(properties_.limits);
   timestampMask_ = timestampMask();
   memory_.emplace(vk_, info.physicalDevice, info.device, info.memoryLimit, host);
 }
@@ -55,7 +79,8 @@ Buffer::Buffer(Device& device, VkDeviceSize size, VkBufferUsageFlags usage, bool
   const Dispatch& vk = device.vk();
   VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
   info.size = size;
-  info.usage = usage;
+  const bool texels = (usage & VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT) != 0 && device.texels();
+  info.usage = texels ? usage : usage & ~VkFlags{VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT};
   check(vk.CreateBuffer(device.handle(), &info, nullptr, &buffer_), "vkCreateBuffer");
   try {
     VkMemoryRequirements needs{};
@@ -64,6 +89,9 @@ Buffer::Buffer(Device& device, VkDeviceSize size, VkBufferUsageFlags usage, bool
     check(vk.BindBufferMemory(device.handle(), buffer_, device.memory().memoryOf(allocation_),
                               allocation_.offset),
           "vkBindBufferMemory");
+    if (texels) {
+      texels_ = texelsOf(device, buffer_);
+    }
   } catch (...) {
     vk.DestroyBuffer(device.handle(), buffer_, nullptr);
     device.memory().release(allocation_);
@@ -73,6 +101,9 @@ Buffer::Buffer(Device& device, VkDeviceSize size, VkBufferUsageFlags usage, bool
 
 Buffer::~Buffer() {
   if (buffer_ != VK_NULL_HANDLE) {
+    if (texels_ != VK_NULL_HANDLE) {
+      device_->vk().DestroyBufferView(device_->handle(), texels_, nullptr);
+    }
     device_->vk().DestroyBuffer(device_->handle(), buffer_, nullptr);
     device_->memory().release(allocation_);
   }
@@ -81,6 +112,7 @@ Buffer::~Buffer() {
 void Buffer::swap(Buffer& other) noexcept {
   std::swap(device_, other.device_);
   std::swap(buffer_, other.buffer_);
+  std::swap(texels_, other.texels_);
   std::swap(size_, other.size_);
   std::swap(allocation_, other.allocation_);
 }

@@ -36,6 +36,10 @@ class Device {
   const VkPhysicalDeviceProperties& properties() const { return properties_; }
   DeviceMemory& memory() { return *memory_; }
   bool supports(VkFormat format, VkFormatFeatureFlags features) const;
+  // Whether buffers of rows of 16 bytes are read as texels (Buffer::texels): any buffer that the
+  // device takes for storage then has a view of all its rows. Drivers such as lavapipe fetch a
+  // texel for less than they read a word. Shaders read words where it is not so.
+  bool texels() const { return texels_; }
   // Whether the queue writes timestamps.
   bool timestamps() const { return timestampMask_ != 0; }
   // Between two timestamps of the queue, which starts again at 0 after its last valid bit.
@@ -49,11 +53,19 @@ class Device {
   DeviceInfo info_;
   Dispatch vk_;
   VkPhysicalDeviceProperties properties_{};
+  bool texels_ = false;
   uint64_t timestampMask_ = 0;  // their valid bits; 0: none
   std::optional<DeviceMemory> memory_;
 };
 
-// A buffer with its memory; host-visible ones stay mapped.
+// Texels of a buffer's rows.
+constexpr VkDeviceSize ROW_BYTES = 16;
+// Of a buffer of such rows.
+constexpr VkBufferUsageFlags ROWS =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+
+// A buffer with its memory; host-visible ones stay mapped. With
+// VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT its rows are texels too where the device allows.
 class Buffer {
  public:
   Buffer() = default;
@@ -66,6 +78,8 @@ class Buffer {
   ~Buffer();
   explicit operator bool() const { return buffer_ != VK_NULL_HANDLE; }
   VkBuffer handle() const { return buffer_; }
+  // Of VK_FORMAT_R32G32B32A32_UINT; null where there is none.
+  VkBufferView texels() const { return texels_; }
   VkDeviceSize size() const { return size_; }
   void* data() const { return allocation_.mapped; }
 
@@ -73,6 +87,7 @@ class Buffer {
   void swap(Buffer& other) noexcept;
   Device* device_ = nullptr;
   VkBuffer buffer_ = VK_NULL_HANDLE;
+  VkBufferView texels_ = VK_NULL_HANDLE;
   VkDeviceSize size_ = 0;
   Allocation allocation_;
 };

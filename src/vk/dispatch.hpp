@@ -16,6 +16,7 @@ namespace welkin::vk {
 
 #define WELKIN_DEVICE_FUNCTIONS(X)                                                              \
   X(AllocateMemory) X(FreeMemory) X(MapMemory) X(CreateBuffer) X(DestroyBuffer)                 \
+  X(CreateBufferView) X(DestroyBufferView)                                                      \
   X(GetBufferMemoryRequirements) X(BindBufferMemory) X(CreateImage) X(DestroyImage)             \
   X(GetImageMemoryRequirements) X(BindImageMemory) X(CreateImageView) X(DestroyImageView)       \
   X(CreateSampler) X(DestroySampler) X(CreateShaderModule) X(DestroyShaderModule)               \

@@ -122,15 +122,20 @@ class Module {
 };
 
 struct Specialization {
-  std::array<VkSpecializationMapEntry, MAX_CONSTANTS> entries{};
+  std::array<uint32_t, MAX_CONSTANTS + 1> constants{};
+  std::array<VkSpecializationMapEntry, MAX_CONSTANTS + 1> entries{};
   VkSpecializationInfo info{};
-  explicit Specialization(const PipelineKey& key) {
+  Specialization(const Device& device, const PipelineKey& key) {
+    std::copy(key.constants.begin(), key.constants.end(), constants.begin());
+    constants[TEXELS_CONSTANT] = device.texels() ? 1 : 0;
     for (uint32_t i = 0; i < entries.size(); ++i) {
       entries[i] = {i, i * 4, 4};
     }
-    info = {static_cast<uint32_t>(entries.size()), entries.data(), sizeof key.constants,
-            key.constants.data()};
+    info = {static_cast<uint32_t>(entries.size()), entries.data(), sizeof constants,
+            constants.data()};
   }
+  Specialization(const Specialization&) = delete;
+  Specialization& operator=(const Specialization&) = delete;
 };
 
 }  // namespace
@@ -149,6 +154,10 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
     volume[BIND_VOLUME_STATE].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     volume[BIND_FOG_CURVE].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     volume[BIND_DISTANCES].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    // Where the device has no texels, no shader reads what these are bound to.
+    const VkDescriptorType texels = device.texels() ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
+                                                    : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    volume[BIND_SECOND_TEXELS].descriptorType = texels;
     volumeSet_ = makeSetLayout(device_, volume);
     std::array composite{
         binding(BIND_COMPOSITE_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
@@ -165,7 +174,8 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
         binding(BIND_COMPOSITE_SHADOW, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
         binding(BIND_COMPOSITE_LIGHT_SHADOW, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
         binding(BIND_COMPOSITE_SKY_FOG, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
-        binding(BIND_COMPOSITE_TILES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)};
+        binding(BIND_COMPOSITE_TILES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
+        binding(BIND_COMPOSITE_STATE_TEXELS, texels)};
     for (const uint32_t i : {BIND_COMPOSITE_FRAME, BIND_COMPOSITE_TILES}) {
       composite[i].stageFlags |= VK_SHADER_STAGE_VERTEX_BIT;
     }
@@ -231,6 +241,8 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
                              BIND_SURFACE_SECONDS_STORE}) {
       surface[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     }
+    surface[BIND_SURFACE_COVER_TEXELS].descriptorType = texels;
+    surface[BIND_SURFACE_STATE_TEXELS].descriptorType = texels;
     surfaceSet_ = makeSetLayout(device_, surface);
     surfaceLayout_ = makeLayout(device_, surfaceSet_);
     skySet_ = makeSetLayout(device_, sky);
@@ -378,8 +390,8 @@ Pipelines::Compute Pipelines::computeOf(Pass pass) const {
 
 VkPipeline Pipelines::makeCompute(const PipelineKey& key) {
   const auto [code, layout] = computeOf(key.pass);
-  const Module module(device_, prunedCode(code, key.constants, hostMemory()));
-  const Specialization specialization(key);
+  const Specialization specialization(device_, key);
+  const Module module(device_, prunedCode(code, specialization.constants, hostMemory()));
   VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
   info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
   info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
@@ -398,8 +410,9 @@ VkPipeline Pipelines::makeBlend(const PipelineKey& key) {
   const bool tiles = key.constants[BLEND_TILES] != 0;
   const Module vertex(device_, tiles ? std::span<const uint32_t>(composite_tiles_vert_spv)
                                      : std::span<const uint32_t>(composite_vert_spv));
-  const Module fragment(device_, prunedCode(composite_blend_frag_spv, key.constants, hostMemory()));
-  const Specialization specialization(key);
+  const Specialization specialization(device_, key);
+  const Module fragment(
+      device_, prunedCode(composite_blend_frag_spv, specialization.constants, hostMemory()));
   std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
   for (auto& stage : stages) {
     stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;

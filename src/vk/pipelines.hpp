@@ -55,6 +55,8 @@ enum class Pass : uint32_t {
 };
 
 constexpr uint32_t MAX_CONSTANTS = 16;
+// Behind those, the same for all: Device::texels().
+constexpr uint32_t TEXELS_CONSTANT = MAX_CONSTANTS;
 // Of CompositeBlend's: 1 where it draws tiles instead of the whole target. No shader's.
 constexpr uint32_t BLEND_TILES = 15;
 
@@ -86,7 +88,8 @@ enum VolumeBinding : uint32_t {
   BIND_LEAPS = 18,
   BIND_DISTANCES = 19,
   BIND_DIAMETERS = 20,
-  VOLUME_BINDING_COUNT = 21
+  BIND_SECOND_TEXELS = 21,
+  VOLUME_BINDING_COUNT = 22
 };
 enum CompositeBinding : uint32_t {
   BIND_COMPOSITE_FRAME = 0,
@@ -104,7 +107,8 @@ enum CompositeBinding : uint32_t {
   BIND_COMPOSITE_LIGHT_SHADOW = 12,
   BIND_COMPOSITE_SKY_FOG = 13,
   BIND_COMPOSITE_TILES = 14,
-  COMPOSITE_BINDING_COUNT = 15
+  BIND_COMPOSITE_STATE_TEXELS = 15,
+  COMPOSITE_BINDING_COUNT = 16
 };
 enum SkyTableBinding : uint32_t {
   BIND_SKY_FRAME = 0,
@@ -185,7 +189,9 @@ enum SurfaceBinding : uint32_t {
   BIND_SURFACE_MAP_DEPTHS = 27,
   BIND_SURFACE_SECONDS_STORE = 28,
   BIND_SURFACE_SECONDS = 29,
-  SURFACE_BINDING_COUNT = 30
+  BIND_SURFACE_COVER_TEXELS = 30,
+  BIND_SURFACE_STATE_TEXELS = 31,
+  SURFACE_BINDING_COUNT = 32
 };
 
 // Of any set.

@@ -16,7 +16,8 @@ namespace {
 // clang-format would move the columns of these lists on every run.
 // clang-format off
 #define WELKIN_FALLIBLE(X)                                                                      \
-  X(AllocateMemory) X(CreateBuffer) X(CreateImage) X(CreateImageView) X(CreateSampler)          \
+  X(AllocateMemory) X(CreateBuffer) X(CreateBufferView) X(CreateImage) X(CreateImageView)       \
+  X(CreateSampler)                                                                              \
   X(CreateShaderModule) X(CreateDescriptorSetLayout) X(CreatePipelineLayout)                    \
   X(CreateComputePipelines) X(CreateGraphicsPipelines) X(CreateDescriptorPool)                  \
   X(CreateQueryPool) X(CreateCommandPool) X(CreateFence)                                        \
@@ -26,6 +27,7 @@ namespace {
 #define WELKIN_UNDOING(X)                                                                       \
   X(FreeMemory, AllocateMemory) X(DestroyBuffer, CreateBuffer) X(DestroyImage, CreateImage)     \
   X(DestroyImageView, CreateImageView) X(DestroySampler, CreateSampler)                         \
+  X(DestroyBufferView, CreateBufferView)                                                        \
   X(DestroyShaderModule, CreateShaderModule)                                                    \
   X(DestroyDescriptorSetLayout, CreateDescriptorSetLayout)                                      \
   X(DestroyPipelineLayout, CreatePipelineLayout) X(DestroyPipeline, CreateComputePipelines)     \

@@ -25,6 +25,7 @@ namespace {
   X(CmdUpdateBuffer, copies)               \
   X(CmdClearColorImage, copies)            \
   X(CreateBuffer, created)                 \
+  X(CreateBufferView, created)             \
   X(CreateImage, created)                  \
   X(CreateImageView, created)              \
   X(CreateSampler, created)                \
@@ -34,6 +35,7 @@ namespace {
   X(CreateGraphicsPipelines, created)      \
   X(CreateQueryPool, created)              \
   X(DestroyBuffer, destroyed)              \
+  X(DestroyBufferView, destroyed)          \
   X(DestroyImage, destroyed)               \
   X(DestroyImageView, destroyed)           \
   X(DestroySampler, destroyed)             \
@@ -68,6 +70,7 @@ struct Spy {
   bool fakes = false;
   uint32_t timestampBits = 0;
   uint64_t clock = 0;
+  uint32_t mostTexels = 0;  // 0: what the device says
 };
 Spy spied;
 
@@ -147,6 +150,12 @@ VKAPI_ATTR void VKAPI_CALL queueFamilies(VkPhysicalDevice physical, uint32_t* co
   }
 }
 
+VKAPI_ATTR void VKAPI_CALL propertiesOf(VkPhysicalDevice physical,
+                                        VkPhysicalDeviceProperties* properties) {
+  vkGetPhysicalDeviceProperties(physical, properties);
+  properties->limits.maxTexelBufferElements = spied.mostTexels;
+}
+
 struct Replacement {
   const char* name;
   PFN_vkVoidFunction function;
@@ -190,6 +199,9 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL spyInstanceProc(VkInstance instance, co
   if (spied.fakes && std::strcmp(name, "vkGetPhysicalDeviceQueueFamilyProperties") == 0) {
     return reinterpret_cast<PFN_vkVoidFunction>(&queueFamilies);
   }
+  if (spied.mostTexels > 0 && std::strcmp(name, "vkGetPhysicalDeviceProperties") == 0) {
+    return reinterpret_cast<PFN_vkVoidFunction>(&propertiesOf);
+  }
   return real;
 }
 
@@ -229,6 +241,7 @@ SpyDevice::SpyDevice(bool validation) {
 
 SpyDevice::~SpyDevice() {
   spied.fakes = false;
+  spied.mostTexels = 0;
   vkDestroyFence(device, fence_, nullptr);
   vkDestroyCommandPool(device, pool_, nullptr);
   vkDestroyDevice(device, nullptr);
@@ -312,6 +325,10 @@ void SpyDevice::fakeTimestamps(uint32_t bits) {
   spied.fakes = true;
   spied.timestampBits = bits;
   spied.clock = (uint64_t{1} << bits) - TICK / 2;
+}
+
+void SpyDevice::fakeTexels(uint32_t most) {
+  spied.mostTexels = most;
 }
 
 const std::set<std::string>& SpyDevice::namesAsked() {

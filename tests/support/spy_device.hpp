@@ -51,6 +51,8 @@ class SpyDevice {
   // read is TICK after the last, the second of them beyond those bits.
   static constexpr uint64_t TICK = 1000;
   static void fakeTimestamps(uint32_t bits);
+  // Likewise: devices tell of buffers of as many texels at most.
+  static void fakeTexels(uint32_t most);
 
   // Records with `record`, submits, waits. Where `record` throws, nothing is submitted.
   void run(const std::function<void(VkCommandBuffer)>& record) const;
