@@ -41,22 +41,39 @@ const int SHELL_STEPS = 28;
 const int SHELL_STEPS_BACK = 6;
 const float SHELL_FINEST = 0.25f;  // steps in depths of the detail
 const float SHELL_COARSEST = 1.0f / 3.0f;
+const float SHELL_LAST = 7.0f;  // level of the noise, one texel
 const float SHELL_CORE = 1.0f;  // where the middle of the step is in the core, without detail
 const float SHELL_BACK = 0.25f;
 // Optical depth behind which nothing counts.
 const float SHELL_HIDDEN = 8.0f;
 
-// Level of the noise that a ray reads: a whole one, as between two the driver reads both, and the
-// same for all steps. The finer of two: steps among what they miss are nearer to the truth than
-// what they would blur. Wider pixels have means as wide as they are.
-float shellLevel(ShellRay ray) {
-  float steps = floor(log2(max(SHELL_COARSEST * surface.detail.x * surface.detailScale.w, 1.0f)));
-  return max(steps, log2(max(ray.width * surface.detailScale.w, 1.0f)));
+// Level of the noise that a ray reads, the same for all steps. The finer of two: steps among what
+// they miss are nearer to the truth than what they would blur. Wider pixels have means about as
+// wide as they are.
+int shellLevel(ShellRay ray) {
+  float texels = surface.detailScale.w;  // per metre
+  float steps = floor(log2(max(SHELL_COARSEST * surface.detail.x * texels, 1.0f)));
+  float pixel = floor(log2(max(ray.width * texels, 1.0f)) + 0.5f);
+  return int(min(max(steps, pixel), SHELL_LAST));
 }
 
-float shellDensityAt(float depth, vec3 place, float level) {
+// Between the texels of a level, of which each has four corners.
+float shellNoiseAt(vec3 at, int level) {
+  int edge = textureSize(shellNoise, 0).x >> level;
+  vec3 texel = at * float(edge) - 0.5f;
+  vec3 low = floor(texel);
+  vec3 part = texel - low;
+  ivec3 first = ivec3(low) & (edge - 1);
+  ivec3 next = ivec3(first.xy, (first.z + 1) & (edge - 1));
+  vec4 here = texelFetch(shellNoise, first, level);
+  vec4 face = mix(here, texelFetch(shellNoise, next, level), part.z);
+  vec2 column = mix(face.xz, face.yw, part.x);
+  return mix(column.x, column.y, part.y);
+}
+
+float shellDensityAt(float depth, vec3 place, int level) {
   vec3 at = place * surface.detailScale.xyz + surface.detailShift.xyz;
-  return shellDensity(depth, textureLod(shellNoise, at, level).x, surface.detail.z);
+  return shellDensity(depth, shellNoiseAt(at, level), surface.detail.z);
 }
 
 // `seen`: metres of core that end at that point where there are as many; in thinner cloud `lost` is
@@ -65,7 +82,7 @@ ShellMarch shellMarch(Inside inside, ShellRay ray, float extinction, float seen)
   float shell = surface.detail.x;
   float base = clamp(inside.chord / float(SHELL_STEPS), SHELL_FINEST * shell,
                      SHELL_COARSEST * shell);
-  float level = shellLevel(ray);
+  int level = shellLevel(ray);
   ShellMarch march;
   march.filled = 0.0f;
   march.lost = 0.0f;
@@ -118,7 +135,7 @@ const float SHELL_SHADE = 2.0f;  // depths of the detail that are looked at
 float shellShadeLost(ShellRay ray, float shade, int steps) {
   float shell = surface.detail.x;
   float width = min(shade, SHELL_SHADE * shell) / float(steps);
-  float level = shellLevel(ray);
+  int level = shellLevel(ray);
   float lost = 0.0f;
   for (int i = 0; i < steps; ++i) {
     vec3 place = ray.origin + (float(i) + 0.5f) * width * ray.slope;

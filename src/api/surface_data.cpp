@@ -50,7 +50,7 @@ void copyNoise(WlkContext_T& c, VkCommandBuffer commands, vk::Buffer& room) {
   SurfaceTables& tables = c.surfaceTables;
   for (uint32_t level = 0; level < DETAIL_LEVELS; ++level) {
     VkBufferImageCopy region{};
-    region.bufferOffset = sizeof(uint16_t) * detailLevelBegin(level);
+    region.bufferOffset = sizeof(uint32_t) * detailLevelBegin(level);
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, 1};
     const uint32_t edge = DETAIL_TEXELS >> level;
     region.imageExtent = {edge, edge, edge};

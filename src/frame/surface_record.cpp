@@ -370,7 +370,7 @@ class SurfaceRecorder {
     const bool detailed = isDetailed(surface_);
     storage(vk::BIND_SURFACE_CELLS, detailed ? tables.cells : r.surfaceFaces);
     b.image(set, vk::BIND_SURFACE_NOISE, detailed ? tables.noise.view() : tables.source.view(),
-            c_.pipelines.repeat(), READ);
+            c_.pipelines.nearest(), READ);
     b.image(set, vk::BIND_SURFACE_SHELL,
             detailed ? surface_.shell.depth.view() : tables.source.view(), c_.pipelines.means(),
             detailed ? VK_IMAGE_LAYOUT_GENERAL : READ);

@@ -127,6 +127,26 @@ size_t detailLevelBegin(uint32_t level) {
   return begin;
 }
 
+std::vector<uint32_t> detailFaces(const std::vector<uint8_t>& noise) {
+  std::vector<uint32_t> faces;
+  faces.reserve(noise.size());
+  const uint8_t* level = noise.data();
+  for (uint32_t edge = EDGE; edge > 0; edge /= 2) {
+    for (uint32_t z = 0; z < edge; ++z) {
+      for (uint32_t y = 0; y < edge; ++y) {
+        for (uint32_t x = 0; x < edge; ++x) {
+          const auto at = [&](uint32_t right, uint32_t down) {
+            return uint32_t{level[texelAt((x + right) % edge, (y + down) % edge, z, edge)]};
+          };
+          faces.push_back(at(0, 0) | at(1, 0) << 8U | at(0, 1) << 16U | at(1, 1) << 24U);
+        }
+      }
+    }
+    level += size_t{edge} * edge * edge;
+  }
+  return faces;
+}
+
 std::vector<uint8_t> detailNoise() {
   std::vector<float> level = sizes(lumps());
   rank(level);

@@ -22,6 +22,10 @@ std::vector<uint8_t> detailNoise();
 // Where a level begins in them.
 size_t detailLevelBegin(uint32_t level);
 
+// The same texels, each with its neighbours along x, y and both (low byte first): the corners of a
+// face between four of them.
+std::vector<uint32_t> detailFaces(const std::vector<uint8_t>& noise);
+
 // The finest level between its texels, as linear filters have it, [0, 1]; 1 is the period.
 double detailNoiseAt(const std::vector<uint8_t>& noise, const std::array<double, 3>& place);
 

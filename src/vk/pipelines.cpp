@@ -88,14 +88,15 @@ VkSampler makeSampler(const Device& device, VkFilter filter) {
   return sampler;
 }
 
-VkSampler makeMeanSampler(const Device& device, VkSamplerAddressMode beyond) {
+VkSampler makeMeanSampler(const Device& device) {
   VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
   info.magFilter = VK_FILTER_LINEAR;
   info.minFilter = VK_FILTER_LINEAR;
   info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
   info.maxLod = VK_LOD_CLAMP_NONE;
   info.borderColor = VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK;
-  info.addressModeU = info.addressModeV = info.addressModeW = beyond;
+  info.addressModeU = info.addressModeV = info.addressModeW =
+      VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
   VkSampler sampler = VK_NULL_HANDLE;
   check(device.vk().CreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
   return sampler;
@@ -252,8 +253,7 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
     compositeLayout_ = makeLayout(device_, compositeSet_);
     linear_ = makeSampler(device_, VK_FILTER_LINEAR);
     nearest_ = makeSampler(device_, VK_FILTER_NEAREST);
-    means_ = makeMeanSampler(device_, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER);
-    repeat_ = makeMeanSampler(device_, VK_SAMPLER_ADDRESS_MODE_REPEAT);
+    means_ = makeMeanSampler(device_);
   } catch (...) {
     destroy();
     throw;
@@ -273,7 +273,6 @@ void Pipelines::destroy() {
   vk.DestroySampler(device, linear_, nullptr);
   vk.DestroySampler(device, nearest_, nullptr);
   vk.DestroySampler(device, means_, nullptr);
-  vk.DestroySampler(device, repeat_, nullptr);
   vk.DestroyPipelineLayout(device, surfaceLayout_, nullptr);
   vk.DestroyDescriptorSetLayout(device, surfaceSet_, nullptr);
   vk.DestroyPipelineLayout(device, skyLayout_, nullptr);

@@ -231,8 +231,6 @@ class Pipelines {
   VkSampler nearest() const { return nearest_; }
   // Linear in place and level, 0 beyond the border.
   VkSampler means() const { return means_; }
-  // The same, and repeats.
-  VkSampler repeat() const { return repeat_; }
 
  private:
   void destroy();
@@ -270,7 +268,6 @@ class Pipelines {
   VkSampler linear_ = VK_NULL_HANDLE;
   VkSampler nearest_ = VK_NULL_HANDLE;
   VkSampler means_ = VK_NULL_HANDLE;
-  VkSampler repeat_ = VK_NULL_HANDLE;
 };
 
 }  // namespace welkin::vk

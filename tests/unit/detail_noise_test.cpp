@@ -90,6 +90,29 @@ TEST(DetailNoise, LevelsAreMeans) {
   }
 }
 
+TEST(DetailNoise, FacesHaveTheirFourCorners) {
+  const std::vector<uint32_t> faces = detailFaces(noise());
+  ASSERT_EQ(faces.size(), noise().size());
+  for (uint32_t level = 0; level < DETAIL_LEVELS; ++level) {
+    const uint32_t edge = DETAIL_TEXELS >> level;
+    const size_t begin = detailLevelBegin(level);
+    for (uint32_t i = 0; i < edge * edge * edge; ++i) {
+      const uint32_t x = i % edge;
+      const uint32_t row = i - x;
+      const uint32_t right = row + (x + 1) % edge;
+      const uint32_t y = row / edge % edge;
+      const auto below = [&](uint32_t k) {
+        return y + 1 < edge ? k + edge : k - (edge - 1) * edge;
+      };
+      uint32_t corner = 0;
+      for (const uint32_t k : {i, right, below(i), below(right)}) {
+        ASSERT_EQ(faces[begin + i] >> (8 * corner) & 255U, noise()[begin + k]) << level << ' ' << i;
+        ++corner;
+      }
+    }
+  }
+}
+
 TEST(DetailNoise, IsLinearBetweenTexels) {
   const double edge = DETAIL_TEXELS;
   EXPECT_NEAR(detailNoiseAt(noise(), {3.5 / edge, 5.5 / edge, 7.5 / edge}), texel(3, 5, 7) / 255.0,
