@@ -73,8 +73,7 @@ typedef struct WlkSurfaceDetail {
  * lights that volumes take it from, casts no shadow on others, and is not in aerial perspective for
  *  transparents. [C]
  *  Errors: INVALID_ARGUMENT (extinction, vertexCount, vertexStride, triangleCount, positions,
- *  indices, worldFromSurface), INVALID_HANDLE (medium), LIMIT_EXCEEDED (a mesh
- *  beyond the device's storage buffers), OUT_OF_*, WRONG_STATE in CPU mode. */
+ *  indices, worldFromSurface), INVALID_HANDLE (medium), OUT_OF_*, WRONG_STATE in CPU mode. */
 WLK_API WlkResult wlkCreateSurface(WlkContext context, const WlkSurfaceInfo* info,
                                    WlkSurface* surface);
 /** The memory is freed when no frame in flight uses it. [C] Errors: INVALID_HANDLE. */

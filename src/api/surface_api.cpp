@@ -82,6 +82,7 @@ constexpr VkDeviceSize TEXEL = 4 * sizeof(float);
 
 VkExtent3D meshExtent(size_t texels) {
   constexpr size_t ROW = interface_::SURFACE_MESH_ROW;
+  static_assert(3 * SURFACE_TRIANGLES_MAX <= ROW * ROW, "any device has images so large");
   return {static_cast<uint32_t>(std::min(texels, ROW)),
           static_cast<uint32_t>((texels + ROW - 1) / ROW), 1};
 }
@@ -128,10 +129,6 @@ void fillSurface(WlkContext_T& c, const WlkSurfaceInfo& s, const SurfaceMesh& me
   state.triangles = static_cast<uint32_t>(mesh.triangles.size());
   const VkExtent3D vertices = meshExtent(mesh.positions.size());
   const VkExtent3D corners = meshExtent(mesh.triangles.size());
-  if (std::max(vertices.height, corners.height) > device.properties().limits.maxImageDimension2D) {
-    fail(WLK_ERROR_LIMIT_EXCEEDED, s.sType, "triangleCount",
-         "a mesh of %u triangles exceeds the device's images", s.triangleCount);
-  }
   constexpr VkFormat FLOATS = VK_FORMAT_R32G32B32A32_SFLOAT;
   constexpr VkImageUsageFlags LOADED = VK_IMAGE_USAGE_STORAGE_BIT;
   state.vertices = meshImage(device, FLOATS, vertices, LOADED);
