@@ -67,12 +67,7 @@ void Bindings::buffer(BoundSet& set, uint32_t binding, VkDescriptorType type, Vk
 
 void Bindings::texels(BoundSet& set, uint32_t binding, const vk::Buffer& buffer) {
   const VkBufferView view = buffer.texels();
-  if (view == VK_NULL_HANDLE) {
-    this->buffer(set, binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, buffer.handle(), 0,
-                 buffer.size());
-    return;
-  }
-  if (!changed(set, binding, mix(bits(view), 0, 0))) {
+  if (view == VK_NULL_HANDLE || !changed(set, binding, mix(bits(view), 0, 0))) {
     return;
   }
   VkWriteDescriptorSet w{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};

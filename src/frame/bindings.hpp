@@ -14,7 +14,7 @@ class Bindings {
              VkImageLayout layout);
   void buffer(BoundSet& set, uint32_t binding, VkDescriptorType type, VkBuffer buffer,
               VkDeviceSize offset, VkDeviceSize range);
-  // Its rows as texels where they are, else all of it as storage, which no shader then reads.
+  // Its rows as texels where they are; else nothing, which no shader then reads.
   void texels(BoundSet& set, uint32_t binding, const vk::Buffer& buffer);
   uint32_t writes() const { return writes_; }
 

@@ -11,13 +11,9 @@ namespace welkin::vk {
 
 namespace {
 
-// Sampled images and texels that a set of Welkin's has at most: devices may have as few as 16.
-constexpr uint32_t MOST_SAMPLED = 18;
-
-bool texelsServe(const VkPhysicalDeviceLimits& limits) {
-  return limits.maxTexelBufferElements >= limits.maxStorageBufferRange / ROW_BYTES &&
-         limits.maxPerStageDescriptorSampledImages >= MOST_SAMPLED &&
-         limits.maxDescriptorSetSampledImages >= MOST_SAMPLED;
+bool hasRoomForTexels(const VkPhysicalDeviceLimits& limits) {
+  return std::min(limits.maxPerStageDescriptorSampledImages,
+                  limits.maxDescriptorSetSampledImages) >= MOST_SAMPLED;
 }
 
 VkBufferView texelsOf(const Device& device, VkBuffer buffer) {
@@ -50,7 +46,12 @@ Device::Device(const DeviceInfo& info, std::pmr::memory_resource* host) : info_(
     }
   }
   loadDeviceFunctions(vk_, info.device, info.headless);
-  texels_ = texelsServe(properties_.limits);
+  const VkPhysicalDeviceLimits& limits = properties_.limits;
+  if (!hasRoomForTexels(limits)) {
+    texelType_ = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  }
+  texels_ = hasRoomForTexels(limits) &&
+            limits.maxTexelBufferElements >= limits.maxStorageBufferRange / ROW_BYTES;
   timestampMask_ = timestampMask();
   memory_.emplace(vk_, info.physicalDevice, info.device, info.memoryLimit, host);
 }
@@ -78,8 +79,13 @@ Buffer::Buffer(Device& device, VkDeviceSize size, VkBufferUsageFlags usage, bool
     : device_(&device), size_(size) {
   const Dispatch& vk = device.vk();
   VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
-  info.size = size;
-  const bool texels = (usage & VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT) != 0 && device.texels();
+  // Larger ones are refused by who asked for them.
+  const bool texels = (usage & VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT) != 0 && device.texels() &&
+                      size <= device.properties().limits.maxStorageBufferRange;
+  if (texels) {
+    size_ = (size + ROW_BYTES - 1) / ROW_BYTES * ROW_BYTES;
+  }
+  info.size = size_;
   info.usage = texels ? usage : usage & ~VkFlags{VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT};
   check(vk.CreateBuffer(device.handle(), &info, nullptr, &buffer_), "vkCreateBuffer");
   try {

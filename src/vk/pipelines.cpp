@@ -155,9 +155,7 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
     volume[BIND_VOLUME_STATE].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     volume[BIND_FOG_CURVE].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     volume[BIND_DISTANCES].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    // Where the device has no texels, no shader reads what these are bound to.
-    const VkDescriptorType texels = device.texels() ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
-                                                    : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    const VkDescriptorType texels = device.texelType();
     volume[BIND_SECOND_TEXELS].descriptorType = texels;
     volumeSet_ = makeSetLayout(device_, volume);
     std::array composite{

@@ -16,6 +16,26 @@ struct Picture {
   uint64_t created = 0;  // objects of Vulkan
 };
 
+// From inside a thin cloud that fills the view, whose rays the ground ends: each pixel has its row
+// of the cover and a word behind those of all, and their number is odd and larger than the light
+// map's.
+Picture pictureFromInside() {
+  SceneOptions options;
+  options.width = 131;
+  options.height = 127;
+  EngineScene scene(options);
+  scene.setSky();
+  scene.setSun(40, 70);
+  addSurface(scene, support::sphereMesh(3), scene.addHenyeyGreenstein(0.8f), 3e-4f,
+             {3000, 3000, 3000}, {0, 1000, 0});
+  scene.setCamera({0, 500, 0}, 0, -60);
+  check(wlkPrepare(scene.context));
+  const uint64_t created = SpyDevice::counts().created;
+  scene.renderFrame();
+  EXPECT_TRUE(scene.device().messages().empty()) << scene.device().messages().front();
+  return {scene.read(), created};
+}
+
 // Half resolution, as the levels choose it: its pixels' rays are rows, like what the view's volumes
 // and surfaces leave. A surface in front of a volume and another behind both, so that each reads
 // what the ones before have left; all of them in fog over the ground.
@@ -52,6 +72,15 @@ TEST_P(Texels, DevicesWithoutThemDrawTheSame) {
   EXPECT_GT(with.created, without.created) << "views of texels";
   EXPECT_TRUE(with.image == without.image);
   EXPECT_EQ(with.image.badValues(), 0u);
+  EXPECT_GT(with.image.mean(), 0.0);
+}
+
+TEST(TexelRows, AreThereToTheLastPixel) {
+  const Picture with = pictureFromInside();
+  SpyDevice::fakeTexels(LEAST_TEXELS);
+  const Picture without = pictureFromInside();
+  EXPECT_GT(with.created, without.created) << "views of texels";
+  EXPECT_TRUE(with.image == without.image);
   EXPECT_GT(with.image.mean(), 0.0);
 }
 

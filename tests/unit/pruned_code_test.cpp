@@ -47,6 +47,7 @@
 #include "transport_source_comp_spv.h"
 #include "transport_sweep_comp_spv.h"
 #include "transport_view_comp_spv.h"
+#include "vk/pipelines.hpp"
 #include "volume_distance_comp_spv.h"
 
 namespace welkin::vk {
@@ -131,7 +132,7 @@ TEST_P(PrunedCodeOf, IsValidAndDoesWhatSpirvToolsLeave) {
   std::mt19937 random(1);
   const std::span<const uint32_t> code = GetParam().code;
   for (int i = 0; i < 6; ++i) {
-    std::array<uint32_t, 16> constants{};
+    std::array<uint32_t, MAX_CONSTANTS + 1> constants{};
     for (uint32_t& one : constants) {
       one = random() % 2;
     }
