@@ -2,7 +2,7 @@
 // welkin_surface_detail: times of frames of cloud surfaces with detail and without, as CSV:
 // docs/results/surface-detail.csv. Medians of interleaved rounds in ms, of those on quiet cores
 // where there are enough: CPU times of all threads, of a frame in which nothing changed and of one
-// in which the light moved; of the latter's passes the time that they took (of all rounds); and
+// in which the light moved; of the latter's passes the time that they took, of all frames; and
 // what the cores were like (cores.hpp).
 //
 // With --count, under `valgrind --tool=callgrind --instr-atstart=no --smc-check=all-non-file`: one

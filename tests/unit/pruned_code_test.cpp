@@ -131,11 +131,12 @@ class PrunedCodeOf : public testing::TestWithParam<Pass> {};
 TEST_P(PrunedCodeOf, IsValidAndDoesWhatSpirvToolsLeave) {
   std::mt19937 random(1);
   const std::span<const uint32_t> code = GetParam().code;
-  for (int i = 0; i < 6; ++i) {
+  for (uint32_t i = 0; i < 6; ++i) {
     std::array<uint32_t, MAX_CONSTANTS + 1> constants{};
-    for (uint32_t& one : constants) {
-      one = random() % 2;
+    for (uint32_t k = 0; k < MAX_CONSTANTS; ++k) {
+      constants[k] = random() % 2;
     }
+    constants[TEXELS_CONSTANT] = i % 2;
     constants[3] = 1 + random() % 4;  // fields, of which there is one
     const Code pruned = prunedOf(code, constants);
     EXPECT_EQ(faultsOf(pruned), "");
