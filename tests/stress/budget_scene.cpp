@@ -208,6 +208,10 @@ WlkFrameStats BudgetScene::stats() const {
   return stats;
 }
 
+WlkResult BudgetScene::stageBlock() const {
+  return upload(ballast_, {256, 256, 64});
+}
+
 WlkResult BudgetScene::dropBallast() {
   if (ballast_.id == 0) {
     return WLK_SUCCESS;

@@ -64,6 +64,9 @@ class BudgetScene {
 
   // Frees more than half of what the scene uses, and the frames that used it.
   WlkResult dropBallast();
+  // An upload that waits for a frame, in a block of memory of its own: as much as what else was
+  // staged had.
+  WlkResult stageBlock() const;
   // Leaves a view of a few pixels, and neither a surface nor a map.
   WlkResult shrink();
   WlkResult add(Needing needing);

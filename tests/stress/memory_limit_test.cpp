@@ -222,6 +222,9 @@ TEST_P(MemoryLimitOf, AFullContextRefusesWhatNeedsMore) {
   }
   BudgetScene scene(engine);
   draw(scene, full);
+  if (FaultLayer::memory() < full) {  // of what was staged
+    EXPECT_EQ(scene.stageBlock(), WLK_SUCCESS) << lastError().message;
+  }
   ASSERT_EQ(FaultLayer::memory(), full) << "there is room";
   FaultLayer::failNever();
   if (onGpu() && needing == Needing::SURFACE) {
