@@ -26,6 +26,7 @@ layout(set = 0, binding = 10) uniform sampler2D skyMoments;
 layout(set = 0, binding = 13) uniform sampler3D skyFog;
 
 #include "texels.glsl"
+#include "frame_state.glsl"
 #include "../interface/sky_table.glsl"
 #include "ray.glsl"
 #include "fog_curve.glsl"
@@ -143,13 +144,6 @@ bool covered(uvec2 pixel) {
   vec2 p = vec2(pixel);
   return p.x >= frame.volumeRect.x && p.y >= frame.volumeRect.y && p.x < frame.volumeRect.z &&
          p.y < frame.volumeRect.w;
-}
-
-vec4 stateAt(uint index) {
-  if (TEXELS) {
-    return uintBitsToFloat(texelFetch(frameTexels, int(index)));
-  }
-  return frameState[index];
 }
 
 vec4 volumeState(uvec2 pixel) {

@@ -4,7 +4,7 @@
 // along both axes, a fourth pixel, has. Those of the last rows and columns may lie outside of the
 // view, by three pixels at most, so that all pixels have neighbours around them.
 layout(set = 0, binding = 11, std430) buffer SecondPixels { uint seconds[]; };
-// The same buffer: four words at once cost the driver hardly more than one.
+// The same buffer, row by row.
 layout(set = 0, binding = 11, std430) buffer SecondRays { vec4 secondRays[]; };
 layout(set = 0, binding = 21) uniform usamplerBuffer secondTexels;
 #include "texels.glsl"

@@ -21,6 +21,7 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 #include "surface_mesh.glsl"
 #include "surface_list.glsl"
 layout(set = 0, binding = 31) uniform usamplerBuffer frameTexels;
+#include "frame_state.glsl"
 #include "ray.glsl"
 #include "surface_light.glsl"
 #include "surface_place.glsl"
@@ -50,11 +51,5 @@ void main() {
     imageStore(secondStore, pixel / 2, vec4(light, point.w));
   }
   uint index = uint(pixel.y) * uint(frame.viewport.x) + uint(pixel.x);
-  vec4 state;
-  if (TEXELS) {
-    state = uintBitsToFloat(texelFetch(frameTexels, int(index)));
-  } else {
-    state = frameState[index];
-  }
-  frameState[index].xyz = state.xyz + light * weight;
+  frameState[index].xyz = stateAt(index).xyz + light * weight;
 }

@@ -44,6 +44,7 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "surface_mesh.glsl"
 layout(set = 0, binding = 31) uniform usamplerBuffer frameTexels;
+#include "frame_state.glsl"
 #include "surface_list.glsl"
 #include "../interface/sky_table.glsl"
 #include "surface_spread.glsl"
@@ -111,14 +112,6 @@ vec3 phaseAt(int table, vec3 direction) {
   int i = min(int(x), CURVE_NODES - 2);
   return mix(texelFetch(phase, ivec2(i, table), 0).xyz,
              texelFetch(phase, ivec2(i + 1, table), 0).xyz, x - float(i));
-}
-
-// What is in front.
-vec4 stateBefore(uint index) {
-  if (TEXELS) {
-    return uintBitsToFloat(texelFetch(frameTexels, int(index)));
-  }
-  return frameState[index];
 }
 
 // The source that sky and ground make at a point: in the slab along the vertical that the footprint
@@ -253,7 +246,7 @@ void main() {
 #endif
   bool first = (slice.flags & SLICE_FIRST_VOLUME) != 0u;
   vec3 scattered = vec3(0.0f);
-  vec4 front = first ? vec4(0.0f, 0.0f, 0.0f, 1.0f) : stateBefore(index);
+  vec4 front = first ? vec4(0.0f, 0.0f, 0.0f, 1.0f) : stateAt(index);
   if (LIGHT_ENABLED || AMBIENT) {
     AirAt air = airAt(nodes, distance_);
     if (LIGHT_ENABLED) {

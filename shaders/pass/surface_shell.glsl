@@ -41,7 +41,6 @@ const int SHELL_STEPS = 28;
 const int SHELL_STEPS_BACK = 6;
 const float SHELL_FINEST = 0.25f;  // steps in depths of the detail
 const float SHELL_COARSEST = 1.0f / 3.0f;
-const float SHELL_LAST = 7.0f;  // level of the noise, one texel
 const float SHELL_CORE = 1.0f;  // where the middle of the step is in the core, without detail
 const float SHELL_BACK = 0.25f;
 // Optical depth behind which nothing counts.
@@ -54,7 +53,7 @@ int shellLevel(ShellRay ray) {
   float texels = surface.detailScale.w;  // per metre
   float steps = floor(log2(max(SHELL_COARSEST * surface.detail.x * texels, 1.0f)));
   float pixel = floor(log2(max(ray.width * texels, 1.0f)) + 0.5f);
-  return int(min(max(steps, pixel), SHELL_LAST));
+  return int(min(max(steps, pixel), float(SHELL_LEVELS - 1u)));
 }
 
 // Between the texels of a level, of which each has four corners.

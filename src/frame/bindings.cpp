@@ -19,6 +19,15 @@ uint64_t bits(Handle handle) {
   return reinterpret_cast<uint64_t>(handle);
 }
 
+VkWriteDescriptorSet writeOf(const BoundSet& set, uint32_t binding, VkDescriptorType type) {
+  VkWriteDescriptorSet w{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+  w.dstSet = set.set;
+  w.dstBinding = binding;
+  w.descriptorCount = 1;
+  w.descriptorType = type;
+  return w;
+}
+
 }  // namespace
 
 bool Bindings::changed(BoundSet& set, uint32_t binding, uint64_t identity) {
@@ -40,12 +49,10 @@ void Bindings::image(BoundSet& set, uint32_t binding, VkImageView view, VkSample
     return;
   }
   const VkDescriptorImageInfo info{sampler, view, layout};
-  VkWriteDescriptorSet w{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-  w.dstSet = set.set;
-  w.dstBinding = binding;
-  w.descriptorCount = 1;
-  w.descriptorType = sampler == VK_NULL_HANDLE ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
-                                               : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+  VkWriteDescriptorSet w =
+      writeOf(set, binding,
+              sampler == VK_NULL_HANDLE ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
+                                        : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
   w.pImageInfo = &info;
   write(w);
 }
@@ -56,11 +63,7 @@ void Bindings::buffer(BoundSet& set, uint32_t binding, VkDescriptorType type, Vk
     return;
   }
   const VkDescriptorBufferInfo info{buffer, offset, range};
-  VkWriteDescriptorSet w{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-  w.dstSet = set.set;
-  w.dstBinding = binding;
-  w.descriptorCount = 1;
-  w.descriptorType = type;
+  VkWriteDescriptorSet w = writeOf(set, binding, type);
   w.pBufferInfo = &info;
   write(w);
 }
@@ -70,11 +73,7 @@ void Bindings::texels(BoundSet& set, uint32_t binding, const vk::Buffer& buffer)
   if (view == VK_NULL_HANDLE || !changed(set, binding, mix(bits(view), 0, 0))) {
     return;
   }
-  VkWriteDescriptorSet w{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-  w.dstSet = set.set;
-  w.dstBinding = binding;
-  w.descriptorCount = 1;
-  w.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+  VkWriteDescriptorSet w = writeOf(set, binding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER);
   w.pTexelBufferView = &view;
   write(w);
 }

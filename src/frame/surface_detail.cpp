@@ -82,14 +82,15 @@ vk::Image makeShell(vk::Device& device, const std::array<uint32_t, 3>& cells,
   if (tables.noise) {
     return shell;
   }
-  // Drivers such as lavapipe fetch two texels of four corners for half of what the eight texels of
-  // a linear filter cost them.
+  // Drivers such as lavapipe fetch two texels of four corners for less than the eight of a linear
+  // filter.
   const std::vector<uint32_t> faces = detailFaces(detailNoise());
   vk::Buffer staging(device, faces.size() * sizeof faces[0], VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                      true);
   std::memcpy(staging.data(), faces.data(), staging.size());
   info.format = VK_FORMAT_R8G8B8A8_UNORM;
   info.extent = {DETAIL_TEXELS, DETAIL_TEXELS, DETAIL_TEXELS};
+  static_assert(interface_::SHELL_LEVELS == DETAIL_LEVELS);
   info.levels = DETAIL_LEVELS;
   vk::Image image(device, info);
   constexpr VkBufferUsageFlags WORK = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |

@@ -440,7 +440,7 @@ void makeSurfaces(vk::Device& device, const WlkViewInfo& info, const SliceQualit
   const uint32_t size = surfaceMapSize(quality);
   const VkDeviceSize texels = VkDeviceSize{size} * size;
   const VkDeviceSize pixels = std::max(VkDeviceSize{info.width} * info.height, texels);
-  const VkDeviceSize bytes = coverBytes(pixels, true);
+  const VkDeviceSize bytes = vk::wholeRows(coverBytes(pixels, true));
   if (bytes > device.properties().limits.maxStorageBufferRange) {
     fail(WLK_ERROR_LIMIT_EXCEEDED, WLK_STRUCT_VIEW_INFO, "width",
          "%u x %u pixels with cloud surfaces exceed the device's storage buffers", info.width,

@@ -83,7 +83,7 @@ Buffer::Buffer(Device& device, VkDeviceSize size, VkBufferUsageFlags usage, bool
   const bool texels = (usage & VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT) != 0 && device.texels() &&
                       size <= device.properties().limits.maxStorageBufferRange;
   if (texels) {
-    size_ = (size + ROW_BYTES - 1) / ROW_BYTES * ROW_BYTES;
+    size_ = wholeRows(size);
   }
   info.size = size_;
   info.usage = texels ? usage : usage & ~VkFlags{VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT};

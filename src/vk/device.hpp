@@ -64,6 +64,9 @@ class Device {
 
 // Texels of a buffer's rows.
 constexpr VkDeviceSize ROW_BYTES = 16;
+constexpr VkDeviceSize wholeRows(VkDeviceSize bytes) {
+  return (bytes + ROW_BYTES - 1) / ROW_BYTES * ROW_BYTES;
+}
 // Sampled images and texels of a set of Welkin's, at most: devices may have as few as 16.
 constexpr uint32_t MOST_SAMPLED = 18;
 // Of a buffer of such rows.

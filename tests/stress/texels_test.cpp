@@ -16,6 +16,14 @@ struct Picture {
   uint64_t created = 0;  // objects of Vulkan
 };
 
+Picture drawn(EngineScene& scene) {
+  check(wlkPrepare(scene.context));
+  const uint64_t created = SpyDevice::counts().created;
+  scene.renderFrame();
+  EXPECT_TRUE(scene.device().messages().empty()) << scene.device().messages().front();
+  return {scene.read(), created};
+}
+
 // From inside a thin cloud that fills the view, whose rays the ground ends: each pixel has its row
 // of the cover and a word behind those of all, and their number is odd and larger than the light
 // map's.
@@ -29,11 +37,7 @@ Picture pictureFromInside() {
   addSurface(scene, support::sphereMesh(3), scene.addHenyeyGreenstein(0.8f), 3e-4f,
              {3000, 3000, 3000}, {0, 1000, 0});
   scene.setCamera({0, 500, 0}, 0, -60);
-  check(wlkPrepare(scene.context));
-  const uint64_t created = SpyDevice::counts().created;
-  scene.renderFrame();
-  EXPECT_TRUE(scene.device().messages().empty()) << scene.device().messages().front();
-  return {scene.read(), created};
+  return drawn(scene);
 }
 
 // Half resolution, as the levels choose it: its pixels' rays are rows, like what the view's volumes
@@ -49,11 +53,7 @@ Picture pictureOf(const SceneOptions& options) {
   addSurface(scene, support::sphereMesh(3), medium, 0.01f, {300, 300, 300}, {-500, 1700, -3000});
   addSurface(scene, support::torusMesh(), medium, 0.01f, {900, 900, 900}, {600, 1300, -7000});
   scene.setCamera({0, 1400, 0}, 0, 0);
-  check(wlkPrepare(scene.context));
-  const uint64_t created = SpyDevice::counts().created;
-  scene.renderFrame();
-  EXPECT_TRUE(scene.device().messages().empty()) << scene.device().messages().front();
-  return {scene.read(), created};
+  return drawn(scene);
 }
 
 class Texels : public ::testing::TestWithParam<uint32_t> {};
