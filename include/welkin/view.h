@@ -157,8 +157,9 @@ enum {
    *  Those between take on what their neighbours see where that is smooth (to 0.64 / sliceCount)
    *  and ends at the same surface; others have their own.
    *  Where all slabs' light is kept (see batchSize); never of air, fog, froxels. Of surfaces light
-   *  scattered more than once alone, in every second pixel along both axes; those between take on
-   *  the mean of what is around where that is alike within 5 % and as far away. */
+   *  scattered more than once alone, in every fourth, then second pixel along both axes; those
+   *  between take on the mean of what is around where that is alike within 2.5, then 5 % and as
+   *  far away. */
   WLK_VOLUME_RESOLUTION_HALF = 2
 };
 

@@ -73,13 +73,17 @@ const uint SURFACE_LANES = 64u;   // triangles of a workgroup
 const uint SURFACE_ROW = 32768u;  // workgroups along x
 const uint SURFACE_CELL = 4u;     // pixels along an edge that one lane lists
 // The buffer of a view's lists, in uints: for each list the groups of its dispatch along three
-// axes, the first of which serves any length, and how many pixels it has; a pixel x + 65536 y for
-// each of the view, that of second pixels from the front, the others from the back; and the list of
-// pixels that need their own light, as long.
-const uint SURFACE_LIST_SECONDS = 0u;
-const uint SURFACE_LIST_OTHERS = 1u;
-const uint SURFACE_LIST_OWN = 2u;
-const uint SURFACE_LISTS = 3u;
+// axes, the first of which serves any length, and how many pixels it has. Then as many pixels, x +
+// 65536 y, as the view has: every fourth one along both axes from the front, in their place later
+// second pixels that need their own light; from the back those between second pixels. And as many
+// again: second pixels between fourth ones from the front, from the back others that need their own
+// light.
+const uint SURFACE_LIST_FOURTHS = 0u;
+const uint SURFACE_LIST_SECONDS = 1u;
+const uint SURFACE_LIST_OWN_SECONDS = 2u;
+const uint SURFACE_LIST_OTHERS = 3u;
+const uint SURFACE_LIST_OWN = 4u;
+const uint SURFACE_LISTS = 5u;
 const uint SURFACE_LIST_HEAD = 4u * SURFACE_LISTS;
 const uint SURFACE_MAP_LEVELS = 4u;  // of means that a dispatch of the light map's pass makes
 const uint SURFACE_SMALL = 32u;   // pixels that one lane walks alone

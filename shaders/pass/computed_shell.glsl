@@ -16,18 +16,28 @@ float voxelOf(SurfaceUniforms s) {
   return cell * float(max(max(s.cells.x, s.cells.y), s.cells.z)) / 512.0f;
 }
 
-float shellDensityAt(vec3 place, float depth) {
+ShellDetail shellDetail() {
+  ShellDetail detail;
+  detail.scale = surface.detailScale.xyz;
+  detail.shift = surface.detailShift.xyz;
+  detail.softness = surface.detail.z;
+  detail.cell = surface.detailShift.w;
+  return detail;
+}
+
+float shellDensityAt(ShellDetail detail, vec3 place, float depth) {
   if (depth <= 0.0f || depth >= 1.0f) {
     return depth <= 0.0f ? 0.0f : 1.0f;
   }
-  vec3 at = place * surface.detailScale.xyz + surface.detailShift.xyz;
-  return shellDensity(depth, computedNoise(at), surface.detail.z);
+  vec3 at = place * detail.scale + detail.shift;
+  return shellDensity(depth, computedNoise(at), detail.softness);
 }
 
 // 6.3: opacity.
 ShellMarch shellMarch(Inside inside, ShellRay ray, float extinction, float seen) {
   float voxel = max(voxelOf(surface), ray.width);
   float core = max(voxel, SHELL_CORE * surface.detail.x);
+  ShellDetail detail = shellDetail();
   ShellMarch march;
   march.filled = 0.0f;
   march.lost = 0.0f;
@@ -35,9 +45,9 @@ ShellMarch shellMarch(Inside inside, ShellRay ray, float extinction, float seen)
   int steps = 0;
   while (steps < SHELL_STEPS && at < inside.chord && extinction * march.filled < SHELL_HIDDEN) {
     vec3 place = ray.origin + pointAt(inside, min(at + 0.5f * voxel, inside.chord)) * ray.slope;
-    float depth = shellDepthAt(place);
+    float depth = shellDepthAt(detail, place);
     float width = min(depth < 1.0f ? voxel : core, inside.chord - at);
-    float density = shellDensityAt(place, depth);
+    float density = shellDensityAt(detail, place, depth);
     if (march.filled < seen) {
       march.lost += (1.0f - density) * width;
     }
@@ -52,18 +62,20 @@ ShellMarch shellMarch(Inside inside, ShellRay ray, float extinction, float seen)
 // 6.2: a stretch of the chord with the density in its middle, m.
 float shellStretch(Inside inside, ShellRay ray, float begin, float length_) {
   vec3 place = ray.origin + pointAt(inside, begin + 0.5f * length_) * ray.slope;
-  return length_ * shellDensityAt(place, shellDepthAt(place));
+  ShellDetail detail = shellDetail();
+  return length_ * shellDensityAt(detail, place, shellDepthAt(detail, place));
 }
 
 // 8: what a light map shows begins at the first voxel of a density above rho_0.
 Inside shellLit(Inside inside, ShellRay ray) {
   float voxel = max(voxelOf(surface), ray.width);
+  ShellDetail detail = shellDetail();
   float at = 0.0f;
   bool dense = false;
   int steps = 0;
   while (steps < SHELL_STEPS && at < inside.chord && !dense) {
     vec3 place = ray.origin + pointAt(inside, at + 0.5f * voxel) * ray.slope;
-    dense = shellDensityAt(place, shellDepthAt(place)) > SHELL_DENSE;
+    dense = shellDensityAt(detail, place, shellDepthAt(detail, place)) > SHELL_DENSE;
     at += dense ? 0.0f : voxel;
     ++steps;
   }

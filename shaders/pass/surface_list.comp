@@ -18,12 +18,15 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 #include "surface_mesh.glsl"
 #include "surface_list.glsl"
 
-// Light scattered more than once in every second pixel along both axes first: they have a list of
-// their own.
+// Light scattered more than once in every fourth pixel along both axes first, then in every second
+// one: they have lists of their own.
 layout(constant_id = 13) const bool HALF = false;
 // An invocation takes a cell of so many pixels along both axes, so that it counts up once for all.
+// Cells begin at fourth pixels.
 const uint CELL = SURFACE_CELL;
-const uint SECONDS = HALF ? 0x0505u : 0xffffu;  // bits of a cell, row by row
+// Bits of a cell, row by row.
+const uint FOURTHS = HALF ? 0x0001u : 0xffffu;
+const uint SECONDS = 0x0504u;
 
 bool surfaceCovers(ivec2 pixel) {
   bool inside = all(greaterThanEqual(pixel, surface.rect.xy)) &&
@@ -60,8 +63,7 @@ void list(ivec2 corner, uint bits, uint to) {
 }
 
 void main() {
-  // Cells begin at even pixels.
-  ivec2 corner = surface.shade.xy / 2 * 2 + ivec2(gl_GlobalInvocationID.xy * CELL);
+  ivec2 corner = surface.shade.xy / int(CELL) * int(CELL) + ivec2(gl_GlobalInvocationID.xy * CELL);
   uint covered = 0u;
   uint others = 0u;
   for (uint bit = 0u; bit < CELL * CELL; ++bit) {
@@ -72,11 +74,12 @@ void main() {
       others |= uint(!mine) << bit;
     }
   }
-  list(corner, covered & SECONDS, SURFACE_LIST_SECONDS);
+  list(corner, covered & FOURTHS, SURFACE_LIST_FOURTHS);
   if (HALF) {
-    list(corner, covered & ~SECONDS, SURFACE_LIST_OTHERS);
-    for (uint seconds = others & SECONDS; seconds != 0u; seconds &= seconds - 1u) {
-      imageStore(secondStore, pixelOf(corner, uint(findLSB(seconds))) / 2, vec4(0.0f));
+    list(corner, covered & SECONDS, SURFACE_LIST_SECONDS);
+    list(corner, covered & ~(FOURTHS | SECONDS), SURFACE_LIST_OTHERS);
+    for (uint seconds = others & (FOURTHS | SECONDS); seconds != 0u; seconds &= seconds - 1u) {
+      imageStore(secondLight, pixelOf(corner, uint(findLSB(seconds))) / 2, vec4(0.0f));
     }
   }
   while (others != 0u) {

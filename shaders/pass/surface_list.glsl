@@ -3,10 +3,9 @@
 // `frame`.
 layout(set = 0, binding = 26, std430) buffer List { uint listed[]; };
 // Of second pixels along both axes: light scattered more than once, and how far away its point is;
-// 0 where the surface does not cover them. Fetches cost drivers such as lavapipe less than half of
-// what words of buffers do.
-layout(set = 0, binding = 28, rgba32f) writeonly uniform image2D secondStore;
-layout(set = 0, binding = 29) uniform sampler2D secondLight;
+// 0 where the surface does not cover them. Loads of texels cost drivers such as lavapipe less than
+// fetches, and much less than words of buffers.
+layout(set = 0, binding = 27, rgba32f) uniform image2D secondLight;
 
 uint coverIndex(ivec2 pixel) {
   return uint(pixel.y - surface.rect.y) * uint(surface.rect.z - surface.rect.x) +
@@ -17,8 +16,11 @@ uint coverIndex(ivec2 pixel) {
 uint listAddress(uint list, uint number) {
   uint first = SURFACE_LIST_HEAD;
   uint pixels = uint(frame.viewport.x) * uint(frame.viewport.y);
-  uint forward = first + number + (list == SURFACE_LIST_OWN ? pixels : 0u);
-  return list == SURFACE_LIST_OTHERS ? first + pixels - 1u - number : forward;
+  if (list == SURFACE_LIST_SECONDS || list == SURFACE_LIST_OWN) {
+    first += pixels;
+  }
+  bool back = list == SURFACE_LIST_OTHERS || list == SURFACE_LIST_OWN;
+  return back ? first + pixels - 1u - number : first + number;
 }
 
 // Places for so many pixels: the number of the first.
@@ -37,7 +39,11 @@ ivec2 listedPixel(uint list) {
   return number < count ? ivec2(both & 0xffffu, both >> 16u) : ivec2(-1);
 }
 
-void listOwn(ivec2 pixel) {
-  uint number = takePlaces(SURFACE_LIST_OWN, 1u);
-  listed[listAddress(SURFACE_LIST_OWN, number)] = uint(pixel.x) | (uint(pixel.y) << 16u);
+// For its own light; fourth pixels are a list of such.
+void listOwn(ivec2 pixel, uint list) {
+  if (list != SURFACE_LIST_FOURTHS) {
+    uint own = list == SURFACE_LIST_SECONDS ? SURFACE_LIST_OWN_SECONDS : SURFACE_LIST_OWN;
+    uint number = takePlaces(own, 1u);
+    listed[listAddress(own, number)] = uint(pixel.x) | (uint(pixel.y) << 16u);
+  }
 }

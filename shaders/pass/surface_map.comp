@@ -14,7 +14,7 @@ layout(constant_id = 7) const bool DETAIL = true;
 #include "../interface/slices.glsl"
 layout(set = 0, binding = 8, std430) readonly buffer Faces { SurfaceFaces faces[]; };
 layout(set = 0, binding = 9, std430) buffer Levels { vec4 levels[]; };
-layout(set = 0, binding = 27, rgba32f) writeonly uniform image2D depths;
+layout(set = 0, binding = 7, rgba32f) writeonly uniform image2D depths;
 layout(push_constant) uniform Push { SliceConstants slice; };
 
 struct MapTexel {

@@ -11,7 +11,7 @@ layout(set = 0, binding = 3, rgba32ui) readonly uniform uimage2D triangles;
 layout(set = 0, binding = 4, std430) buffer CoverWords { uint surfaceWords[]; };
 // The same buffer.
 layout(set = 0, binding = 4, std430) buffer CoverRows { uvec4 surfaceRows[]; };
-layout(set = 0, binding = 30) uniform usamplerBuffer coverTexels;
+layout(set = 0, binding = 28) uniform usamplerBuffer coverTexels;
 layout(set = 0, binding = 23) uniform sampler3D shellNoise;
 layout(set = 0, binding = 25) uniform sampler3D shellField;
 

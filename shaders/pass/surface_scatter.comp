@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Light scattered more than once, added to the pixels of a list at the points that the shading has
-// left (surface_light.glsl); second pixels keep it for those between them.
+// left (surface_light.glsl); fourth and second pixels keep it for those between them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
@@ -11,7 +11,7 @@ layout(constant_id = 13) const bool HALF = false;
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
 layout(set = 0, binding = 6, std430) buffer FrameState { vec4 frameState[]; };
-layout(set = 0, binding = 7) uniform sampler2D depths;
+layout(set = 0, binding = 7, rgba32f) readonly uniform image2D depths;
 layout(set = 0, binding = 10) uniform sampler2D columns;
 layout(set = 0, binding = 11) uniform sampler2D faces;
 layout(set = 0, binding = 12) uniform sampler3D source;
@@ -20,7 +20,7 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "surface_mesh.glsl"
 #include "surface_list.glsl"
-layout(set = 0, binding = 31) uniform usamplerBuffer frameTexels;
+layout(set = 0, binding = 29) uniform usamplerBuffer frameTexels;
 #include "frame_state.glsl"
 #include "ray.glsl"
 #include "surface_light.glsl"
@@ -28,13 +28,14 @@ layout(set = 0, binding = 31) uniform usamplerBuffer frameTexels;
 
 // Light scattered at least twice: J at the point, per unit irradiance. `lost`: what detail takes of
 // the metres between it and the light.
-vec3 scatteredAt(vec3 p, vec3 direction, float lost) {
+vec3 scatteredAt(vec3 direction, float distance_, float lost) {
+  vec3 p = distance_ * direction;
+  float shade = shadeAt(lightRay(direction), distance_);
   vec4 q = vec4(p, 1.0f);
   vec3 toEye = eyeInMap(surface.lightX, surface.lightY, surface.lightZ, surface.map, direction);
   return surfaceScattered(columns, faces, source, curves, mapOf(surface.map),
                           vec2(dot(surface.lightX, q), dot(surface.lightY, q)),
-                          dot(surface.lightZ, q) - lost, max(shadeAt(p) - lost, 0.0f), toEye,
-                          surface.orders);
+                          dot(surface.lightZ, q) - lost, max(shade - lost, 0.0f), toEye, surface.orders);
 }
 
 void main() {
@@ -46,9 +47,9 @@ void main() {
   vec4 point = uintBitsToFloat(coverRow(at));
   vec3 weight = vec3(uintBitsToFloat(furtherWord(at)), point.yz);
   vec3 direction = pixelDirection(frame, vec2(pixel));
-  vec3 light = scatteredAt(point.w * direction, direction, point.x);
-  if (HALF && slice.firstSlab == SURFACE_LIST_SECONDS) {
-    imageStore(secondStore, pixel / 2, vec4(light, point.w));
+  vec3 light = scatteredAt(direction, point.w, point.x);
+  if (HALF && slice.firstSlab != SURFACE_LIST_OWN) {
+    imageStore(secondLight, pixel / 2, vec4(light, point.w));
   }
   uint index = uint(pixel.y) * uint(frame.viewport.x) + uint(pixel.x);
   frameState[index].xyz = stateAt(index).xyz + light * weight;

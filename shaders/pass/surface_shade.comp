@@ -25,7 +25,7 @@ layout(constant_id = 14) const bool DISTANCE = false;
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
 layout(set = 0, binding = 6, std430) buffer FrameState { vec4 frameState[]; };
-layout(set = 0, binding = 7) uniform sampler2D depths;
+layout(set = 0, binding = 7, rgba32f) readonly uniform image2D depths;
 layout(set = 0, binding = 10) uniform sampler2D columns;
 layout(set = 0, binding = 11) uniform sampler2D faces;
 layout(set = 0, binding = 12) uniform sampler3D source;
@@ -43,7 +43,7 @@ layout(set = 0, binding = 22) uniform sampler2D skyShare;
 layout(push_constant) uniform Push { SliceConstants slice; };
 
 #include "surface_mesh.glsl"
-layout(set = 0, binding = 31) uniform usamplerBuffer frameTexels;
+layout(set = 0, binding = 29) uniform usamplerBuffer frameTexels;
 #include "frame_state.glsl"
 #include "surface_list.glsl"
 #include "../interface/sky_table.glsl"
@@ -117,16 +117,20 @@ vec3 phaseAt(int table, vec3 direction) {
 // The source that sky and ground make at a point: in the slab along the vertical that the footprint
 // of a set of some scatterings finds, each of its faces in what its side sees of both.
 const int AMBIENT_SET = 4;
-vec3 ambientAt(vec3 p, vec3 direction, ShellRay shell, float distance_) {
+vec3 ambientAt(vec3 direction, ShellRay shell, float distance_) {
   const vec3 UP = vec3(0.0f, 0.0f, 1.0f);
-  MapPlace at = mapPlace(surface.upX, surface.upY, surface.upZ, surface.upMap, p);
-  float shade = shadeOf(at, upDepths);
+  MapRay ray = mapRay(surface.upX, surface.upY, surface.upZ, surface.upMap, direction);
+  MapPlace at = mapPlace(ray, distance_);
+  float shade = shadeOf(at, texelFetch(upDepths, at.first, 0),
+                        texelFetch(upDepths, at.first + ivec2(1, 0), 0),
+                        texelFetch(upDepths, at.first + ivec2(0, 1), 0),
+                        texelFetch(upDepths, at.first + ivec2(1, 1), 0));
   if (DETAIL) {
     float lost = shellShadeLost(shellRayTo(shell, distance_, -surface.upZ.xyz), shade, LOOKS);
     shade -= lost;
     at.depth -= lost;
   }
-  vec4 q = vec4(p, 1.0f);
+  vec4 q = vec4(distance_ * direction, 1.0f);
   vec2 place = vec2(dot(surface.upX, q), dot(surface.upY, q));
   vec3 toEye = eyeInMap(surface.upX, surface.upY, surface.upZ, surface.upMap, direction);
   SurfaceMap map = mapOf(surface.upMap);
@@ -176,20 +180,30 @@ void main() {
     float most = chordDepth(SURFACE_SAMPLE, surface.optics.z * inside.chord);
     march = shellMarch(inside, shell, surface.optics.y, most / max(surface.optics.z, 1.0e-20f));
   }
-  float tau = surface.optics.y * march.filled;
+  // Of stretches, read before them: see ShellDetail.
+  float extinction = surface.optics.x;
+  float withoutPeak = surface.optics.y;
+  MapRay light = lightRay(direction);
+  float tau = withoutPeak * march.filled;
   AirNodes nodes = airNodes(direction, inside.front, inside.back);
   float through = 1.0f;
   vec3 sum = vec3(0.0f);
-  vec3 smooth_ = LIGHT_ENABLED ? phaseAt(0, direction) : vec3(0.0f);
-  vec3 peak = LIGHT_ENABLED ? phaseAt(1, direction) : vec3(0.0f);
+  vec3 smooth_ = vec3(0.0f);
+  vec3 peak = vec3(0.0f);
+  if (LIGHT_ENABLED) {
+    smooth_ = phaseAt(0, direction) * surface.albedo.xyz;
+    peak = phaseAt(1, direction) * surface.albedo.xyz;
+  }
   // Stretches of equal opacity of what detail leaves; in [B08] of the whole chord.
 #ifdef SHELL_NOISE_COMPUTED
-  float cut = surface.optics.y * inside.chord;
+  float cut = withoutPeak * inside.chord;
   float first_ = 0.0f;
 #else
   float cut = tau;
   float first_ = march.lost;
 #endif
+  float opacity = oneMinusExp(cut);
+  float thin = 1.0f / max(withoutPeak, 1.0e-20f);
   float begin = 0.0f;
   ChordLight whole = emptyChord();
   float depth = surface.optics.z * march.filled;
@@ -197,40 +211,40 @@ void main() {
                       march.filled);
   float distance_ = pointAt(inside, march.lost + sample_);
   float near = pointAt(inside, march.lost);
-  float shadeNear = LIGHT_ENABLED ? shadeAt(near * direction) : 0.0f;
+  float shadeNear = LIGHT_ENABLED ? shadeAt(light, near) : 0.0f;
   // What detail takes from the way to the light at the first point and at the one whose light
   // stands for all; between them linear.
   vec2 lost = vec2(0.0f);
   if (LIGHT_ENABLED && DETAIL) {
     vec3 toLight = frame.lights[0].direction.xyz;
     lost.x = shellShadeLost(shellRayTo(shell, near, toLight), shadeNear, LOOKS_FIRST);
-    lost.y = shellShadeLost(shellRayTo(shell, distance_, toLight), shadeAt(distance_ * direction),
-                            LOOKS);
+    lost.y = shellShadeLost(shellRayTo(shell, distance_, toLight), shadeAt(light, distance_), LOOKS);
     shadeNear -= lost.x;
   }
+  float perSample = 1.0f / max(sample_, 1.0e-20f);
   for (int i = 1; i <= STRETCHES; ++i) {
-    float end = chordDepth(float(i) / float(STRETCHES), cut) / max(surface.optics.y, 1.0e-20f);
+    float end = chordDepthOf(float(i) / float(STRETCHES), opacity, cut) * thin;
     float length_ = max(end - begin, 0.0f);
     AirAt air = airAt(nodes, pointAt(inside, first_ + begin + 0.5f * length_));
 #ifdef SHELL_NOISE_COMPUTED
     if (DETAIL) {
       length_ = shellStretch(inside, shell, begin, length_);
     }
-    float passed = through * exp(-surface.optics.y * length_);
+    float passed = through * exp(-withoutPeak * length_);
 #else
-    float passed = exp(-min(surface.optics.y * end, EXP_CUT));
+    float passed = exp(-min(withoutPeak * end, EXP_CUT));
 #endif
     if (LIGHT_ENABLED) {
-      float taken = mix(lost.x, lost.y, min(end / max(sample_, 1.0e-20f), 1.0f));
-      float shadeFar = max(shadeAt(pointAt(inside, first_ + end) * direction) - taken, 0.0f);
-      float once = through * segmentInscatter(surface.optics.y * shadeNear,
-                                              surface.optics.y * shadeFar,
-                                              surface.optics.y * length_);
+      float taken = mix(lost.x, lost.y, min(end * perSample, 1.0f));
+      float shadeFar = max(shadeAt(light, pointAt(inside, first_ + end)) - taken, 0.0f);
+      float once = through * segmentInscatter(withoutPeak * shadeNear,
+                                              withoutPeak * shadeFar,
+                                              withoutPeak * length_);
       float before = whole.inscatter;
-      whole = chordStretch(whole, surface.optics.x * shadeNear, surface.optics.x * shadeFar,
-                           surface.optics.x * length_);
-      sum += (smooth_ * once + peak * (whole.inscatter - before)) * surface.albedo.xyz *
-             air.light * air.transmittance;
+      whole = chordStretch(whole, extinction * shadeNear, extinction * shadeFar,
+                           extinction * length_);
+      sum += (smooth_ * once + peak * (whole.inscatter - before)) * air.light *
+             air.transmittance;
       shadeNear = shadeFar;
     }
     sum += air.radiance * (through - passed);
@@ -253,13 +267,16 @@ void main() {
       vec3 weight = front.w * oneMinusExp(depth) * air.light * air.transmittance;
       bool own = true;
       if (HALF) {
-        vec4 between = lightBetween(pixel, distance_);
+        bool second = slice.firstSlab == SURFACE_LIST_SECONDS;
+        vec4 between = lightBetween(pixel, distance_, second ? 4 : 2);
         // What nothing is seen of needs no light, but where others may take it on.
         bool unseen = max(max(weight.x, weight.y), weight.z) == 0.0f;
-        own = slice.firstSlab == SURFACE_LIST_SECONDS || (between.w == 0.0f && !unseen);
+        own = slice.firstSlab == SURFACE_LIST_FOURTHS || (between.w == 0.0f && (second || !unseen));
         scattered = between.w == 0.0f || own ? vec3(0.0f) : between.xyz * weight;
-        if (own && slice.firstSlab != SURFACE_LIST_SECONDS) {
-          listOwn(pixel);
+        if (own) {
+          listOwn(pixel, slice.firstSlab);
+        } else if (second) {
+          imageStore(secondLight, pixel / 2, vec4(between.xyz, distance_));
         }
       }
       if (own) {
@@ -267,7 +284,7 @@ void main() {
       }
     }
     if (AMBIENT) {
-      sum += (1.0f - through) * ambientAt(distance_ * direction, direction, shell, distance_) *
+      sum += (1.0f - through) * ambientAt(direction, shell, distance_) *
              air.transmittance;
     }
   }

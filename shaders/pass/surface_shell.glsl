@@ -28,9 +28,20 @@ struct ShellMarch {
   float lost;    // that it takes in front of the point whose light stands for all
 };
 
+// What steps read of a surface's detail. Uniforms of a loop are read before it, here and in other
+// passes: drivers such as lavapipe gather each word of theirs for all lanes, about 25 instructions.
+struct ShellDetail {
+  vec3 scale;      // place in periods of the noise
+  vec3 shift;
+  float softness;
+  float cell;      // depths of the detail
+  int level;       // of the noise
+  int edge;        // its texels
+};
+
 // In depths of the detail.
-float shellDepthAt(vec3 place) {
-  return (textureLod(shellField, place, 0.0f).x - SHELL_OUTSIDE) * surface.detailShift.w;
+float shellDepthAt(ShellDetail detail, vec3 place) {
+  return (textureLod(shellField, place, 0.0f).x - SHELL_OUTSIDE) * detail.cell;
 }
 
 #ifdef SHELL_NOISE_COMPUTED
@@ -56,23 +67,33 @@ int shellLevel(ShellRay ray) {
   return int(min(max(steps, pixel), float(SHELL_LEVELS - 1u)));
 }
 
+ShellDetail shellDetail(ShellRay ray) {
+  ShellDetail detail;
+  detail.scale = surface.detailScale.xyz;
+  detail.shift = surface.detailShift.xyz;
+  detail.softness = surface.detail.z;
+  detail.cell = surface.detailShift.w;
+  detail.level = shellLevel(ray);
+  detail.edge = textureSize(shellNoise, 0).x >> detail.level;
+  return detail;
+}
+
 // Between the texels of a level, of which each has four corners.
-float shellNoiseAt(vec3 at, int level) {
-  int edge = textureSize(shellNoise, 0).x >> level;
-  vec3 texel = at * float(edge) - 0.5f;
+float shellNoiseAt(ShellDetail detail, vec3 at) {
+  vec3 texel = at * float(detail.edge) - 0.5f;
   vec3 low = floor(texel);
   vec3 part = texel - low;
-  ivec3 first = ivec3(low) & (edge - 1);
-  ivec3 next = ivec3(first.xy, (first.z + 1) & (edge - 1));
-  vec4 here = texelFetch(shellNoise, first, level);
-  vec4 face = mix(here, texelFetch(shellNoise, next, level), part.z);
+  ivec3 first = ivec3(low) & (detail.edge - 1);
+  ivec3 next = ivec3(first.xy, (first.z + 1) & (detail.edge - 1));
+  vec4 here = texelFetch(shellNoise, first, detail.level);
+  vec4 face = mix(here, texelFetch(shellNoise, next, detail.level), part.z);
   vec2 column = mix(face.xz, face.yw, part.x);
   return mix(column.x, column.y, part.y);
 }
 
-float shellDensityAt(float depth, vec3 place, int level) {
-  vec3 at = place * surface.detailScale.xyz + surface.detailShift.xyz;
-  return shellDensity(depth, shellNoiseAt(at, level), surface.detail.z);
+float shellDensityAt(ShellDetail detail, float depth, vec3 place) {
+  vec3 at = place * detail.scale + detail.shift;
+  return shellDensity(depth, shellNoiseAt(detail, at), detail.softness);
 }
 
 // `seen`: metres of core that end at that point where there are as many; in thinner cloud `lost` is
@@ -81,7 +102,7 @@ ShellMarch shellMarch(Inside inside, ShellRay ray, float extinction, float seen)
   float shell = surface.detail.x;
   float base = clamp(inside.chord / float(SHELL_STEPS), SHELL_FINEST * shell,
                      SHELL_COARSEST * shell);
-  int level = shellLevel(ray);
+  ShellDetail detail = shellDetail(ray);
   ShellMarch march;
   march.filled = 0.0f;
   march.lost = 0.0f;
@@ -95,8 +116,8 @@ ShellMarch shellMarch(Inside inside, ShellRay ray, float extinction, float seen)
     float wide = at < gap ? clamp(gap - at, base, core) : core;
     float width = min(inCore ? wide : base, inside.chord - at);
     vec3 place = ray.origin + pointAt(inside, at + 0.5f * width) * ray.slope;
-    float depth = shellDepthAt(place);
-    float density = depth < 1.0f ? shellDensityAt(depth, place, level) : 1.0f;
+    float depth = shellDepthAt(detail, place);
+    float density = depth < 1.0f ? shellDensityAt(detail, depth, place) : 1.0f;
     // A wide step that comes upon the shell is taken again, in narrow ones.
     bool again = inCore && depth < 1.0f;
     narrow = again ? at + width : narrow;
@@ -120,7 +141,8 @@ ShellMarch shellMarch(Inside inside, ShellRay ray, float extinction, float seen)
   while (back > 0) {
     float depth = inside.chord - (float(back) - 0.5f) * width;
     vec3 place = ray.origin + pointAt(inside, depth) * ray.slope;
-    march.filled -= (1.0f - shellDensityAt(shellDepthAt(place), place, level)) * width;
+    march.filled -=
+        (1.0f - shellDensityAt(detail, shellDepthAt(detail, place), place)) * width;
     --back;
   }
   march.filled = max(march.filled, 0.0f);
@@ -134,11 +156,11 @@ const float SHELL_SHADE = 2.0f;  // depths of the detail that are looked at
 float shellShadeLost(ShellRay ray, float shade, int steps) {
   float shell = surface.detail.x;
   float width = min(shade, SHELL_SHADE * shell) / float(steps);
-  int level = shellLevel(ray);
+  ShellDetail detail = shellDetail(ray);
   float lost = 0.0f;
   for (int i = 0; i < steps; ++i) {
     vec3 place = ray.origin + (float(i) + 0.5f) * width * ray.slope;
-    lost += 1.0f - shellDensityAt(shellDepthAt(place), place, level);
+    lost += 1.0f - shellDensityAt(detail, shellDepthAt(detail, place), place);
   }
   float beyond = clamp(shade / shell - SHELL_SHADE, 0.0f, 1.0f);
   return min(lost * width + 0.5f * shell * beyond, shade);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Light scattered more than once of a pixel between second pixels (surface_scatter.comp): the mean
-// of those around where they are alike and the pixel's own point lies among theirs. Before:
-// surface_list.glsl.
+// Light scattered more than once of a pixel between fourth or second pixels (surface_scatter.comp):
+// the mean of those around where they are alike and the pixel's own point lies among theirs.
+// Before: surface_list.glsl.
 
-// Of what second pixels around have, in parts of the most: the mean then misses a step among them
-// by half of it.
+// Of what second pixels around have, in parts of the most, and twice of fourth ones: the mean then
+// misses a step among them by half of it.
 const float ALIKE = 0.05f;
 // The pixel's own point may lie so far from the mean of theirs: in free paths of the canonical
 // cloud, and in parts of what lies between theirs. At an edge in front of something it is either's.
@@ -22,18 +22,19 @@ void look(inout Around around, ivec2 pixel) {
   bool inside = all(greaterThanEqual(pixel, surface.rect.xy)) &&
                 all(lessThan(pixel, surface.rect.zw));
   ivec2 at = inside ? pixel : surface.rect.xy;
-  vec4 light = texelFetch(secondLight, at / 2, 0);
+  vec4 light = imageLoad(secondLight, at / 2);
   around.there = around.there && inside && light.w > 0.0f;
   around.sum += light;
   around.least = min(around.least, light);
   around.most = max(around.most, light);
 }
 
-// At a pixel whose point is at `range`: w is 0 where it has to have its own.
-vec4 lightBetween(ivec2 pixel, float range) {
+// At a pixel whose point is at `range`, between those that are `apart` pixels apart: w is 0 where it
+// has to have its own.
+vec4 lightBetween(ivec2 pixel, float range, int apart) {
   // Of 2 or, between two rows, 4; in the other case some are the same.
-  ivec2 low = pixel / 2 * 2;
-  ivec2 high = (pixel + 1) / 2 * 2;
+  ivec2 low = pixel / apart * apart;
+  ivec2 high = (pixel + apart - 1) / apart * apart;
   Around around = Around(vec4(0.0f), vec4(3.0e38f), vec4(0.0f), true);
   look(around, low);
   look(around, ivec2(high.x, low.y));
@@ -41,7 +42,10 @@ vec4 lightBetween(ivec2 pixel, float range) {
   look(around, high);
   float reach = SAME_RANGE / max(surface.optics.z, 1.0e-20f);
   float off = abs(range - 0.25f * around.sum.w);
-  bool alike = all(lessThanEqual(around.most.xyz - around.least.xyz, ALIKE * around.most.xyz)) &&
-               off <= reach + SAME_PART * (around.most.w - around.least.w);
+  // Further apart, what they miss between them is larger: half of the bounds.
+  float part = 2.0f / float(apart);
+  vec3 differ = around.most.xyz - around.least.xyz;
+  bool alike = all(lessThanEqual(differ, part * ALIKE * around.most.xyz)) &&
+               off <= part * (reach + SAME_PART * (around.most.w - around.least.w));
   return vec4(0.25f * around.sum.xyz, around.there && alike ? 1.0f : 0.0f);
 }

@@ -62,7 +62,7 @@ class Draft {
 VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t volumes,
                           uint32_t surfaces, uint32_t lights, bool froxels) {
   // Of a surface's set: what is neither uniform nor image nor texels is a storage buffer.
-  constexpr uint32_t SURFACE_IMAGES = 16;
+  constexpr uint32_t SURFACE_IMAGES = 14;
   constexpr uint32_t SURFACE_STORES = 4;
   constexpr uint32_t SURFACE_TEXELS = 2;
   static_assert(SURFACE_IMAGES + SURFACE_TEXELS <= vk::MOST_SAMPLED);
@@ -86,7 +86,7 @@ VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t vol
                            slots * ((24 + 14 * more) * volumes + 5 * spread +
                                     SURFACE_IMAGES * SURFACE_PICTURES * surfaces + 10 + 8 * more)},
       VkDescriptorPoolSize{
-          device.texelType(),
+          VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,
           slots * ((1 + more) * (volumes + 1) + SURFACE_TEXELS * SURFACE_PICTURES * surfaces)}};
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   info.maxSets = sets;

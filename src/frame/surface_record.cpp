@@ -232,26 +232,25 @@ class SurfaceRecorder {
     SliceConstants push{};
     push.flags = first ? interface_::SLICE_FIRST_VOLUME : 0;
     constexpr uint32_t CELL = interface_::SURFACE_CELL;
-    const uint32_t wide = shade.x1 - shade.x0 / 2 * 2;
-    const uint32_t high = shade.y1 - shade.y0 / 2 * 2;
+    const uint32_t wide = shade.x1 - shade.x0 / CELL * CELL;
+    const uint32_t high = shade.y1 - shade.y0 / CELL * CELL;
     c_.dispatch(c_.find(listKeyOf(c_, targets_)), c_.pipelines.surfaceLayout(), &push,
                 groups((wide + CELL - 1) / CELL), groups((high + CELL - 1) / CELL), stats,
                 index_ + 1);
-    orderLists();
     const vk::PipelineKey shades = shadeKeyOf(c_, targets_, planned_);
     const vk::PipelineKey scatters = surfaceScatterKey(c_.quality.halfVolumes);
-    overList(shades, interface_::SURFACE_LIST_SECONDS, push, stats);
-    if (planned_.lit) {  // light scattered more than once
+    const auto over = [&](uint32_t list, uint32_t own) {
       orderLists();
-      overList(scatters, interface_::SURFACE_LIST_SECONDS, push, stats);
-    }
-    if (c_.quality.halfVolumes) {
-      orderLists();
-      overList(shades, interface_::SURFACE_LIST_OTHERS, push, stats);
-      if (planned_.lit) {
+      overList(shades, list, push, stats);
+      if (planned_.lit) {  // light scattered more than once
         orderLists();
-        overList(scatters, interface_::SURFACE_LIST_OWN, push, stats);
+        overList(scatters, own, push, stats);
       }
+    };
+    over(interface_::SURFACE_LIST_FOURTHS, interface_::SURFACE_LIST_FOURTHS);
+    if (c_.quality.halfVolumes) {
+      over(interface_::SURFACE_LIST_SECONDS, interface_::SURFACE_LIST_OWN_SECONDS);
+      over(interface_::SURFACE_LIST_OTHERS, interface_::SURFACE_LIST_OWN);
     }
   }
 
@@ -335,15 +334,11 @@ class SurfaceRecorder {
     storage(vk::BIND_SURFACE_LIST, r.surfaceList);
     storage(vk::BIND_SURFACE_STATE, r.frameState);
     const SurfaceLight& up = up_ != nullptr ? *up_ : light_;
-    const auto fetched = [&](uint32_t binding, const vk::Image& image) {
-      b.image(set, binding, image.view(), c_.pipelines.nearest(), VK_IMAGE_LAYOUT_GENERAL);
-    };
-    fetched(vk::BIND_SURFACE_LIGHT_DEPTHS, light.depths);
-    fetched(vk::BIND_SURFACE_UP_DEPTHS, up.depths);
-    b.image(set, vk::BIND_SURFACE_MAP_DEPTHS, light.depths.view(), VK_NULL_HANDLE,
+    b.image(set, vk::BIND_SURFACE_DEPTHS, light.depths.view(), VK_NULL_HANDLE,
             VK_IMAGE_LAYOUT_GENERAL);
-    fetched(vk::BIND_SURFACE_SECONDS, r.surfaceSeconds);
-    b.image(set, vk::BIND_SURFACE_SECONDS_STORE, r.surfaceSeconds.view(), VK_NULL_HANDLE,
+    b.image(set, vk::BIND_SURFACE_UP_DEPTHS, up.depths.view(), c_.pipelines.nearest(),
+            VK_IMAGE_LAYOUT_GENERAL);
+    b.image(set, vk::BIND_SURFACE_SECONDS, r.surfaceSeconds.view(), VK_NULL_HANDLE,
             VK_IMAGE_LAYOUT_GENERAL);
     storage(vk::BIND_SURFACE_FACE_IDS, r.surfaceFaces);
     storage(vk::BIND_SURFACE_LEVELS, r.surfaceLevels);

@@ -11,11 +11,6 @@ namespace welkin::vk {
 
 namespace {
 
-bool hasRoomForTexels(const VkPhysicalDeviceLimits& limits) {
-  return std::min(limits.maxPerStageDescriptorSampledImages,
-                  limits.maxDescriptorSetSampledImages) >= MOST_SAMPLED;
-}
-
 VkBufferView texelsOf(const Device& device, VkBuffer buffer) {
   VkBufferViewCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
   info.buffer = buffer;
@@ -47,11 +42,7 @@ Device::Device(const DeviceInfo& info, std::pmr::memory_resource* host) : info_(
   }
   loadDeviceFunctions(vk_, info.device, info.headless);
   const VkPhysicalDeviceLimits& limits = properties_.limits;
-  if (!hasRoomForTexels(limits)) {
-    texelType_ = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-  }
-  texels_ = hasRoomForTexels(limits) &&
-            limits.maxTexelBufferElements >= limits.maxStorageBufferRange / ROW_BYTES;
+  texels_ = limits.maxTexelBufferElements >= limits.maxStorageBufferRange / ROW_BYTES;
   timestampMask_ = timestampMask();
   memory_.emplace(vk_, info.physicalDevice, info.device, info.memoryLimit, host);
 }

@@ -37,12 +37,10 @@ class Device {
   DeviceMemory& memory() { return *memory_; }
   bool supports(VkFormat format, VkFormatFeatureFlags features) const;
   // Whether buffers of rows of 16 bytes are read as texels (Buffer::texels): any buffer that the
-  // device takes for storage then has a view of all its rows, and a set has room for those views.
-  // Drivers such as lavapipe fetch a texel for less than they read a word. Shaders read words where
-  // it is not so, and nothing is bound in the place of texels.
+  // device takes for storage then has a view of all its rows. Drivers such as lavapipe fetch a
+  // texel for less than they read a word. Shaders read words where it is not so, and nothing is
+  // bound in the place of texels.
   bool texels() const { return texels_; }
-  // Of their bindings: of another kind where a set has no room for them.
-  VkDescriptorType texelType() const { return texelType_; }
   // Whether the queue writes timestamps.
   bool timestamps() const { return timestampMask_ != 0; }
   // Between two timestamps of the queue, which starts again at 0 after its last valid bit.
@@ -57,7 +55,6 @@ class Device {
   Dispatch vk_;
   VkPhysicalDeviceProperties properties_{};
   bool texels_ = false;
-  VkDescriptorType texelType_ = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
   uint64_t timestampMask_ = 0;  // their valid bits; 0: none
   std::optional<DeviceMemory> memory_;
 };
@@ -67,8 +64,8 @@ constexpr VkDeviceSize ROW_BYTES = 16;
 constexpr VkDeviceSize wholeRows(VkDeviceSize bytes) {
   return (bytes + ROW_BYTES - 1) / ROW_BYTES * ROW_BYTES;
 }
-// Sampled images and texels of a set of Welkin's, at most: devices may have as few as 16.
-constexpr uint32_t MOST_SAMPLED = 18;
+// Sampled images and texels of a set of Welkin's, at most: any device has room for so many.
+constexpr uint32_t MOST_SAMPLED = 16;
 // Of a buffer of such rows.
 constexpr VkBufferUsageFlags ROWS =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;

@@ -155,7 +155,7 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
     volume[BIND_VOLUME_STATE].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     volume[BIND_FOG_CURVE].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     volume[BIND_DISTANCES].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    const VkDescriptorType texels = device.texelType();
+    const VkDescriptorType texels = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
     volume[BIND_SECOND_TEXELS].descriptorType = texels;
     volumeSet_ = makeSetLayout(device_, volume);
     std::array composite{
@@ -229,15 +229,14 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
       surface[i].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     }
     for (const uint32_t i :
-         {BIND_SURFACE_DEPTH, BIND_SURFACE_LIGHT_DEPTHS, BIND_SURFACE_COLUMNS, BIND_SURFACE_FACES,
-          BIND_SURFACE_SOURCE, BIND_SURFACE_CURVES, BIND_SURFACE_PHASE, BIND_SURFACE_SKY_TABLE,
-          BIND_SURFACE_SKY_PEAK, BIND_SURFACE_UP_DEPTHS, BIND_SURFACE_UP_COLUMNS,
-          BIND_SURFACE_UP_FACES, BIND_SURFACE_SHARE, BIND_SURFACE_NOISE, BIND_SURFACE_SHELL,
-          BIND_SURFACE_SECONDS}) {
+         {BIND_SURFACE_DEPTH, BIND_SURFACE_COLUMNS, BIND_SURFACE_FACES, BIND_SURFACE_SOURCE,
+          BIND_SURFACE_CURVES, BIND_SURFACE_PHASE, BIND_SURFACE_SKY_TABLE, BIND_SURFACE_SKY_PEAK,
+          BIND_SURFACE_UP_DEPTHS, BIND_SURFACE_UP_COLUMNS, BIND_SURFACE_UP_FACES,
+          BIND_SURFACE_SHARE, BIND_SURFACE_NOISE, BIND_SURFACE_SHELL}) {
       surface[i].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     }
-    for (const uint32_t i : {BIND_SURFACE_VERTICES, BIND_SURFACE_CORNERS, BIND_SURFACE_MAP_DEPTHS,
-                             BIND_SURFACE_SECONDS_STORE}) {
+    for (const uint32_t i :
+         {BIND_SURFACE_VERTICES, BIND_SURFACE_CORNERS, BIND_SURFACE_DEPTHS, BIND_SURFACE_SECONDS}) {
       surface[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     }
     surface[BIND_SURFACE_COVER_TEXELS].descriptorType = texels;

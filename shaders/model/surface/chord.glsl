@@ -27,8 +27,12 @@ real chordLogarithm(real x) {
 
 // Depth into a chord of depth tau >= 0 in front of which the part u in [0, 1] of its opacity lies:
 // where [B08] Fig. 10 spaces samples exponentially, each stretch between even u hides as much.
+// `opacity`: oneMinusExp(tau).
+real chordDepthOf(real u, real opacity, real tau) {
+  return u < real(1.0f) ? min(chordLogarithm(u * opacity), tau) : tau;
+}
 real chordDepth(real u, real tau) {
-  return u < real(1.0f) ? min(chordLogarithm(u * oneMinusExp(tau)), tau) : tau;
+  return chordDepthOf(u, oneMinusExp(tau), tau);
 }
 
 // [B08] Eq. 1 and 2 as corrected, one stretch of depth tau behind `before`: lightNear and lightFar
