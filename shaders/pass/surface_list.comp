@@ -28,10 +28,10 @@ const uint CELL = SURFACE_CELL;
 const uint FOURTHS = HALF ? 0x0001u : 0xffffu;
 const uint SECONDS = 0x0504u;
 
-bool surfaceCovers(ivec2 pixel) {
-  bool inside = all(greaterThanEqual(pixel, surface.rect.xy)) &&
-                all(lessThan(pixel, surface.rect.zw));
-  return inside && coverOf(coverIndex(inside ? pixel : surface.rect.xy)).chord > 0;
+bool surfaceCovers(ivec2 pixel, ivec4 rect) {
+  bool inside = all(greaterThanEqual(pixel, rect.xy)) && all(lessThan(pixel, rect.zw));
+  ivec2 at = inside ? pixel - rect.xy : ivec2(0);
+  return inside && coverOf(uint(at.y * (rect.z - rect.x) + at.x)).chord > 0;
 }
 
 // What a pixel without the surface is.
@@ -66,10 +66,12 @@ void main() {
   ivec2 corner = surface.shade.xy / int(CELL) * int(CELL) + ivec2(gl_GlobalInvocationID.xy * CELL);
   uint covered = 0u;
   uint others = 0u;
+  ivec4 rect = surface.rect;
+  ivec4 shade = surface.shade;
   for (uint bit = 0u; bit < CELL * CELL; ++bit) {
     ivec2 pixel = pixelOf(corner, bit);
-    if (all(greaterThanEqual(pixel, surface.shade.xy)) && all(lessThan(pixel, surface.shade.zw))) {
-      bool mine = surfaceCovers(pixel);
+    if (all(greaterThanEqual(pixel, shade.xy)) && all(lessThan(pixel, shade.zw))) {
+      bool mine = surfaceCovers(pixel, rect);
       covered |= uint(mine) << bit;
       others |= uint(!mine) << bit;
     }

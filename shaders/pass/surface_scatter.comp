@@ -33,9 +33,10 @@ vec3 scatteredAt(vec3 direction, float distance_, float lost) {
   float shade = shadeAt(lightRay(direction), distance_);
   vec4 q = vec4(p, 1.0f);
   vec3 toEye = eyeInMap(surface.lightX, surface.lightY, surface.lightZ, surface.map, direction);
-  return surfaceScattered(columns, faces, source, curves, mapOf(surface.map),
-                          vec2(dot(surface.lightX, q), dot(surface.lightY, q)),
-                          dot(surface.lightZ, q) - lost, max(shade - lost, 0.0f), toEye, surface.orders);
+  vec2 place = vec2(dot(surface.lightX, q), dot(surface.lightY, q));
+  return surfaceScattered(columns, faces, source, curves, mapOf(surface.map), place,
+                          dot(surface.lightZ, q) - lost, max(shade - lost, 0.0f), toEye,
+                          surface.orders);
 }
 
 void main() {

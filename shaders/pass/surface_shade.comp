@@ -218,7 +218,8 @@ void main() {
   if (LIGHT_ENABLED && DETAIL) {
     vec3 toLight = frame.lights[0].direction.xyz;
     lost.x = shellShadeLost(shellRayTo(shell, near, toLight), shadeNear, LOOKS_FIRST);
-    lost.y = shellShadeLost(shellRayTo(shell, distance_, toLight), shadeAt(light, distance_), LOOKS);
+    lost.y =
+        shellShadeLost(shellRayTo(shell, distance_, toLight), shadeAt(light, distance_), LOOKS);
     shadeNear -= lost.x;
   }
   float perSample = 1.0f / max(sample_, 1.0e-20f);

@@ -29,8 +29,8 @@ void look(inout Around around, ivec2 pixel) {
   around.most = max(around.most, light);
 }
 
-// At a pixel whose point is at `range`, between those that are `apart` pixels apart: w is 0 where it
-// has to have its own.
+// At a pixel whose point is at `range`, between those that are `apart` pixels apart: w is 0 where
+// it has to have its own.
 vec4 lightBetween(ivec2 pixel, float range, int apart) {
   // Of 2 or, between two rows, 4; in the other case some are the same.
   ivec2 low = pixel / apart * apart;
