@@ -19,7 +19,7 @@ layout(constant_id = 7) const bool DETAIL = true;
 layout(constant_id = 8) const bool MULTIPLE_ENABLED = true;
 // Light of sky and ground.
 layout(constant_id = 9) const bool AMBIENT = false;
-// Pixels between second pixels take on their light.
+// Pixels between fourth ones, then between second ones, take on their light.
 layout(constant_id = 13) const bool HALF = false;
 layout(constant_id = 14) const bool DISTANCE = false;
 

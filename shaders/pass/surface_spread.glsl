@@ -4,7 +4,7 @@
 // Before: surface_list.glsl.
 
 // Of what second pixels around have, in parts of the most, and twice of fourth ones: the mean then
-// misses a step among them by half of it.
+// misses a step among them by half of it, and by three quarters where one of four differs.
 const float ALIKE = 0.05f;
 // The pixel's own point may lie so far from the mean of theirs: in free paths of the canonical
 // cloud, and in parts of what lies between theirs. At an edge in front of something it is either's.
@@ -18,10 +18,11 @@ struct Around {
   bool there;
 };
 
-void look(inout Around around, ivec2 pixel) {
+void look(inout Around around, ivec2 pixel, int apart) {
   bool inside = all(greaterThanEqual(pixel, surface.rect.xy)) &&
                 all(lessThan(pixel, surface.rect.zw));
-  ivec2 at = inside ? pixel : surface.rect.xy;
+  // Never one that a second pixel's invocation may be writing.
+  ivec2 at = inside ? pixel : surface.rect.xy / apart * apart;
   vec4 light = imageLoad(secondLight, at / 2);
   around.there = around.there && inside && light.w > 0.0f;
   around.sum += light;
@@ -36,10 +37,10 @@ vec4 lightBetween(ivec2 pixel, float range, int apart) {
   ivec2 low = pixel / apart * apart;
   ivec2 high = (pixel + apart - 1) / apart * apart;
   Around around = Around(vec4(0.0f), vec4(3.0e38f), vec4(0.0f), true);
-  look(around, low);
-  look(around, ivec2(high.x, low.y));
-  look(around, ivec2(low.x, high.y));
-  look(around, high);
+  look(around, low, apart);
+  look(around, ivec2(high.x, low.y), apart);
+  look(around, ivec2(low.x, high.y), apart);
+  look(around, high, apart);
   float reach = SAME_RANGE / max(surface.optics.z, 1.0e-20f);
   float off = abs(range - 0.25f * around.sum.w);
   // Further apart, what they miss between them is larger: half of the bounds.

@@ -19,6 +19,9 @@ TEST(ModelSweep, ChordsKeepEnergy) {
         m::chordLogarithm(x[0]));
   SWEEP(2, "chordDepth", (Claim{0.0, 1e30}), ({a.uniform(0.0f, 1.0f), a.magnitude(1e-30f, 1e30f)}),
         m::chordDepth(x[0], x[1]));
+  SWEEP(2, "chordDepthOf", (Claim{0.0, 1e30}),
+        ({a.uniform(0.0f, 1.0f), a.magnitude(1e-30f, 1e30f)}),
+        m::chordDepthOf(x[0], m::oneMinusExp(x[1]), x[1]));
   SWEEP(4, "chordStretch", (Claim{0.0, 1.0 + 1e-6}),
         ({a.magnitude(1e-9f, 1e9f), a.magnitude(1e-9f, 1e9f), a.magnitude(1e-9f, 1e9f),
           a.magnitude(1e-9f, 1e9f)}),
