@@ -16,15 +16,6 @@ float voxelOf(SurfaceUniforms s) {
   return cell * float(max(max(s.cells.x, s.cells.y), s.cells.z)) / 512.0f;
 }
 
-ShellDetail shellDetail() {
-  ShellDetail detail;
-  detail.scale = surface.detailScale.xyz;
-  detail.shift = surface.detailShift.xyz;
-  detail.softness = surface.detail.z;
-  detail.cell = surface.detailShift.w;
-  return detail;
-}
-
 float shellDensityAt(ShellDetail detail, vec3 place, float depth) {
   if (depth <= 0.0f || depth >= 1.0f) {
     return depth <= 0.0f ? 0.0f : 1.0f;

@@ -39,6 +39,16 @@ struct ShellDetail {
   int edge;        // its texels
 };
 
+// Without the noise's.
+ShellDetail shellDetail() {
+  ShellDetail detail;
+  detail.scale = surface.detailScale.xyz;
+  detail.shift = surface.detailShift.xyz;
+  detail.softness = surface.detail.z;
+  detail.cell = surface.detailShift.w;
+  return detail;
+}
+
 // In depths of the detail.
 float shellDepthAt(ShellDetail detail, vec3 place) {
   return (textureLod(shellField, place, 0.0f).x - SHELL_OUTSIDE) * detail.cell;
@@ -68,11 +78,7 @@ int shellLevel(ShellRay ray) {
 }
 
 ShellDetail shellDetail(ShellRay ray) {
-  ShellDetail detail;
-  detail.scale = surface.detailScale.xyz;
-  detail.shift = surface.detailShift.xyz;
-  detail.softness = surface.detail.z;
-  detail.cell = surface.detailShift.w;
+  ShellDetail detail = shellDetail();
   detail.level = shellLevel(ray);
   detail.edge = textureSize(shellNoise, 0).x >> detail.level;
   return detail;
