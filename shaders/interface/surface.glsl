@@ -41,16 +41,16 @@ struct SurfaceUniforms {
   uvec4 cells;       // along the axes
 };
 
-// What the surface does in a pixel, zero before; depths in steps, so that the order of triangles is
-// all one.
+// What the surface does in a pixel; depths in steps, so that the order of triangles is all one.
 struct SurfaceCover {
   uint front;  // ~ the nearest depth at which a ray enters; 0 where it never does
-  uint leave;  // ~ the nearest at which one leaves
+  uint leave;  // ~ the nearest at which one leaves; 0 likewise
   uint back;   // farthest at which one leaves; 0 where it never does
   int chord;   // depths of leaving less those of entering
 };
-// Its words. Behind those of all pixels of the picture's rectangle each has one more: ~ the depth
-// at which rays end; 0 where they never do.
+// As it is counted, zero before: front, leave, of those of leaving but the nearest the farthest, and
+// the chord without the nearest of either. Behind the words of all pixels of the picture's rectangle
+// each has one more: ~ the depth at which rays end; 0 where they never do.
 //
 // What the shading leaves in their place for light scattered more than once: what detail takes of
 // the metres between a point on the pixel's ray and the light, green and blue of what that point's
@@ -58,8 +58,8 @@ struct SurfaceCover {
 const uint SURFACE_COVER_WORDS = 4u;
 const uint SURFACE_FRONT = 0u;
 const uint SURFACE_LEAVE = 1u;
-const uint SURFACE_BACK = 2u;
-const uint SURFACE_CHORD = 3u;
+const uint SURFACE_FARTHEST = 2u;
+const uint SURFACE_REST = 3u;
 
 // Triangles that a texel of the light map shows, and 1 more: on the lit side and on the other.
 struct SurfaceFaces {
@@ -85,7 +85,6 @@ const uint SURFACE_LIST_OTHERS = 3u;
 const uint SURFACE_LIST_OWN = 4u;
 const uint SURFACE_LISTS = 5u;
 const uint SURFACE_LIST_HEAD = 4u * SURFACE_LISTS;
-const uint SURFACE_MAP_LEVELS = 4u;  // of means that a dispatch of the light map's pass makes
 const uint SURFACE_SMALL = 32u;   // pixels that one lane walks alone
 const uint SURFACE_TEAM = 8u;     // lanes that
 const uint SURFACE_MIDDLE = 1024u;  // walk so many together

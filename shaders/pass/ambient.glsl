@@ -9,7 +9,8 @@
 layout(set = 0, binding = 0, std140) uniform Volume { AmbientUniforms volume; };
 layout(set = 0, binding = 1, std430) buffer Work { vec4 work[]; };
 layout(set = 0, binding = 2, std430) buffer Kept { vec4 kept[]; };
-layout(push_constant) uniform Push { AmbientPush push; };
+layout(push_constant) uniform Push { AmbientPush pushBlock; };
+AmbientPush push = pushBlock;
 
 // Lists of `kept`, over all levels: moments of the phase function times albedo, of degree 0 with
 // the extinction without the peak (1/m) in w; terms of the source.

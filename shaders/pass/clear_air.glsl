@@ -120,7 +120,7 @@ PixelLayer clearAir(Air air, AirRay ray, vec3 direction, float reach, float grou
   PixelLayer layer;
   layer.radiance = vec3(0.0f);
   for (int i = 0; i < int(LIGHT_COUNT); ++i) {
-    LightUniforms light = frame.lights[i];
+    LightUniforms light = frameBlock.lights[i];
     AirRay lit = airRayOf(frame, light, direction);
     vec3 source = skyTableSource(skyTableDirection(lit, i), share, lit.viewSun);
     layer.radiance += source * light.irradiance.xyz;

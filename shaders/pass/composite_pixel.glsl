@@ -13,7 +13,8 @@ layout(constant_id = 10) const bool SPACE_ENABLED = false;
 // Clear air: all of its light comes from the table.
 layout(constant_id = 11) const bool ALL_LIGHT = false;
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
+layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frameBlock; };
+FrameUniforms frame = frameBlock;
 layout(set = 0, binding = 1, std430) readonly buffer FrameState { vec4 frameState[]; };
 // The same buffer.
 layout(set = 0, binding = 15) uniform usamplerBuffer frameTexels;
@@ -49,7 +50,7 @@ vec3 multipleLight(Air air, AirRay ray, int which, float reach, vec3 columns, ve
   if (SPACE_ENABLED) {
     AirPath path = clipToAir(air, ray, reach);
     SkyMarch march = skyMarchBegin(air, path);
-    float lightRadius = frame.lights[which].direction.w;
+    float lightRadius = frameBlock.lights[which].direction.w;
     for (int i = 1; i <= SPACE_STEPS; ++i) {
       float t = skyStop(path, float(i) / float(SPACE_STEPS));
       march = skyMarchTo(air, path, march, t, lightRadius);
@@ -73,7 +74,7 @@ PixelLayer layeredAir(Air air, vec3 direction, float reach, bool ends) {
   layer.radiance = vec3(0.0f);
   layer.transmittance = vec3(1.0f);
   for (int i = 0; i < max(int(LIGHT_COUNT), 1); ++i) {
-    LightUniforms light = frame.lights[i];
+    LightUniforms light = frameBlock.lights[i];
     AirRay ray = airRayOf(frame, light, direction);
     float airPhase = rayleighPhase(1.0f - ray.viewSun);
     vec3 droplets = FOG_ENABLED ? fogPhaseOf(direction, light.direction.xyz) : vec3(0.0f);
@@ -105,7 +106,7 @@ vec3 groundRadiance(Air air, vec3 direction, float ground) {
     above.fogExtinction *= frame.skyZeniths.x;
   }
   for (int i = 0; i < int(LIGHT_COUNT); ++i) {
-    LightUniforms light = frame.lights[i];
+    LightUniforms light = frameBlock.lights[i];
     AirRay foot = advanceRay(air, airRayOf(frame, light, direction), ground);
     vec3 sun = exp(-lightOpticalDepth(above, 0.0f, foot.sunMu));
     float visible = lightVisibility(air, 0.0f, foot.sunMu, light.direction.w);
@@ -125,7 +126,7 @@ vec3 groundRadiance(Air air, vec3 direction, float ground) {
 vec3 diskRadiance(vec3 direction) {
   vec3 sum = vec3(0.0f);
   for (int i = 0; i < int(LIGHT_COUNT); ++i) {
-    LightUniforms light = frame.lights[i];
+    LightUniforms light = frameBlock.lights[i];
     float y = oneMinusCosine(direction, light.direction.xyz);
     vec3 shape = vec3(diskCoverage(y, light.disk.w));
     if (DISK_KIND > 1u) {

@@ -8,11 +8,14 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 14) const bool DISTANCE = false;
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
-layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volume; };
+layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frameBlock; };
+FrameUniforms frame = frameBlock;
+layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volumeBlock; };
+VolumeUniforms volume = volumeBlock;
 layout(set = 0, binding = 10, std430) buffer FrameState { vec4 frameState[]; };
 layout(set = 0, binding = 19, std430) buffer Distances { vec4 distances[]; };
-layout(push_constant) uniform Push { SliceConstants slice; };
+layout(push_constant) uniform Push { SliceConstants sliceBlock; };
+SliceConstants slice = sliceBlock;
 
 const bool DEPTH_ENABLED = false;
 const bool TILES = true;

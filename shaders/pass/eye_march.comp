@@ -26,8 +26,10 @@ layout(constant_id = 10) const bool GREY = false;
 layout(constant_id = 13) const uint RAYS = 0u;  // RAYS_OF_*
 layout(constant_id = 14) const bool DISTANCE = false;
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
-layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volume; };
+layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frameBlock; };
+FrameUniforms frame = frameBlock;
+layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volumeBlock; };
+VolumeUniforms volume = volumeBlock;
 layout(set = 0, binding = 3) uniform sampler3D lightBuffer;
 layout(set = 0, binding = 4) uniform sampler3D field0;
 layout(set = 0, binding = 5) uniform sampler3D field1;
@@ -46,7 +48,8 @@ layout(set = 0, binding = 18) uniform sampler3D leaps;
 // Per pixel in xy, of all volumes: sum of what is hidden at a distance (a part of the background)
 // times the distance (m), and of what is hidden.
 layout(set = 0, binding = 19, std430) buffer Distances { vec4 distances[]; };
-layout(push_constant) uniform Push { SliceConstants slice; };
+layout(push_constant) uniform Push { SliceConstants sliceBlock; };
+SliceConstants slice = sliceBlock;
 
 // Slices of froxels, one behind the other, instead of pixels: rays end at the slice's distance.
 const bool FROXELS = RAYS == RAYS_OF_FROXELS;
@@ -77,7 +80,7 @@ const float MAX_STEPS = 17000.0f;
 const float LEAST_STEP = 2.4e-7f;  // 2^-22
 const bool AIR_SEEN = AIR_ENABLED || FOG_ENABLED;
 
-// Copies, see fields.glsl.
+// Copies, see common.glsl.
 vec4 fieldAlbedo[4] = volume.albedo;
 vec4 fieldMeanAlbedo = volume.meanAlbedo;
 float notPeak = TRANSPORT ? volume.texelOrigin.w : 1.0f;  // share of extinction, see VolumeUniforms

@@ -24,8 +24,10 @@ layout(constant_id = 9) const bool AMBIENT = false;
 layout(constant_id = 13) const bool FROXELS = false;
 layout(constant_id = 14) const bool DISTANCE = false;
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
-layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volume; };
+layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frameBlock; };
+FrameUniforms frame = frameBlock;
+layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volumeBlock; };
+VolumeUniforms volume = volumeBlock;
 layout(set = 0, binding = 3) uniform sampler3D lightBuffer;
 layout(set = 0, binding = 4) uniform sampler3D field0;
 layout(set = 0, binding = 5) uniform sampler3D field1;
@@ -44,7 +46,8 @@ layout(set = 0, binding = 17) uniform sampler3D viewAmbient;
 // Per pixel, of all volumes and of this one: sum of what is hidden at a distance (a part of the
 // background) times the distance (m), and of what is hidden.
 layout(set = 0, binding = 19, std430) buffer Distances { vec4 distances[]; };
-layout(push_constant) uniform Push { SliceConstants slice; };
+layout(push_constant) uniform Push { SliceConstants sliceBlock; };
+SliceConstants slice = sliceBlock;
 
 #include "../interface/sky_table.glsl"
 #include "ray.glsl"
@@ -54,6 +57,10 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 #include "air_column.glsl"
 #include "sky_lookup.glsl"
 #include "air_nodes.glsl"
+
+// Copies, see common.glsl.
+vec4 fieldAlbedo[4] = volume.albedo;
+vec4 fieldMeanAlbedo = volume.meanAlbedo;
 
 const float RAY_ENDS = 1.0e-6f;    // transmittance at which a ray ends; bounds its relative error
 const float HIDDEN = 18.0f;         // optical depth by the grid beyond which nothing is looked at
@@ -72,25 +79,25 @@ vec3 scatteredLight(vec4 extinction, vec3 single[4], vec2 light, float angle, fl
   vec3 sum = vec3(0.0f);
   if (TRANSPORT) {
     for (uint i = 0u; i < FIELD_COUNT; ++i) {
-      float turned = (tau + eyeDepth) * volume.meanAlbedo[i];
+      float turned = (tau + eyeDepth) * fieldMeanAlbedo[i];
       vec3 source = fieldSource(i, depthCoordinate(turned), angle, box);
-      sum += volume.albedo[i].xyz * source * extinction[i];
+      sum += fieldAlbedo[i].xyz * source * extinction[i];
     }
     return sum * exp(-min(tau * volume.texelOrigin.w, 80.0f));
   }
   if (!FORWARD_SCATTERING) {
     for (int i = 0; i < int(FIELD_COUNT); ++i) {
       vec3 source = variesInside(uint(i)) ? fieldSource(uint(i), 0.0f, angle, box) : single[i];
-      sum += volume.albedo[i].xyz * source * extinction[i];
+      sum += fieldAlbedo[i].xyz * source * extinction[i];
     }
     return sum * exp(-tau);
   }
   // phi was accumulated with the mean albedo; each colour scales it by its own.
   for (uint i = 0u; i < FIELD_COUNT; ++i) {
-    float mean = max(volume.meanAlbedo[i], 1.0e-6f);
-    vec3 albedo = volume.albedo[i].xyz;
+    float mean = max(fieldMeanAlbedo[i], 1.0e-6f);
+    vec3 albedo = fieldAlbedo[i].xyz;
     vec3 intensity = exp(min(light.y * albedo / mean - tau, vec3(0.0f)));
-    vec3 source = fieldSource(i, depthCoordinate(tau * volume.meanAlbedo[i]), angle, box);
+    vec3 source = fieldSource(i, depthCoordinate(tau * fieldMeanAlbedo[i]), angle, box);
     sum += intensity * albedo * source * extinction[i];
   }
   return sum;

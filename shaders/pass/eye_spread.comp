@@ -21,12 +21,15 @@ layout(constant_id = 12) const bool TILES = false;
 layout(constant_id = 13) const uint TO = SPREAD_TO_PIXELS;
 layout(constant_id = 14) const bool DISTANCE = false;
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
-layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volume; };
+layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frameBlock; };
+FrameUniforms frame = frameBlock;
+layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volumeBlock; };
+VolumeUniforms volume = volumeBlock;
 layout(set = 0, binding = 9) uniform sampler2D depthImage;
 layout(set = 0, binding = 10, std430) buffer FrameState { vec4 frameState[]; };
 layout(set = 0, binding = 19, std430) buffer Distances { vec4 distances[]; };
-layout(push_constant) uniform Push { SliceConstants slice; };
+layout(push_constant) uniform Push { SliceConstants sliceBlock; };
+SliceConstants slice = sliceBlock;
 
 #include "ray.glsl"
 #include "ray_end.glsl"

@@ -10,9 +10,12 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
-layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volume; };
-layout(push_constant) uniform Push { SliceConstants slice; };
+layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frameBlock; };
+FrameUniforms frame = frameBlock;
+layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volumeBlock; };
+VolumeUniforms volume = volumeBlock;
+layout(push_constant) uniform Push { SliceConstants sliceBlock; };
+SliceConstants slice = sliceBlock;
 
 const bool DEPTH_ENABLED = false;
 const bool DISTANCE = false;

@@ -8,7 +8,7 @@ float cleanDensity(float x) {
 // Bit i: field i is kept as bricks, its sampler being their atlas (src/frame/bricks.hpp).
 layout(constant_id = 11) const uint BRICK_FIELDS = 0u;
 
-// Copies: lavapipe loads what stands in a buffer anew in every round of a loop.
+// Copies, see common.glsl.
 vec3 fieldVoxels = volume.voxels.xyz;
 vec4 fieldScale = volume.extinctionScale;
 vec4 fieldAtlas[4] = volume.atlas;

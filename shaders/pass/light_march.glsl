@@ -10,14 +10,16 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 3) const uint FIELD_COUNT = 1;
 layout(constant_id = 4) const bool FORWARD_SCATTERING = true;
 
-layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volume; };
+layout(set = 0, binding = 1, std140) uniform Volume { VolumeUniforms volumeBlock; };
+VolumeUniforms volume = volumeBlock;
 layout(set = 0, binding = 2, LIGHT_FORMAT) uniform image3D lightBuffer;
 layout(set = 0, binding = 4) uniform sampler3D field0;
 layout(set = 0, binding = 5) uniform sampler3D field1;
 layout(set = 0, binding = 6) uniform sampler3D field2;
 layout(set = 0, binding = 7) uniform sampler3D field3;
 layout(set = 0, binding = 16) uniform sampler3D pages;
-layout(push_constant) uniform Push { SliceConstants slice; };
+layout(push_constant) uniform Push { SliceConstants sliceBlock; };
+SliceConstants slice = sliceBlock;
 
 #include "fields.glsl"
 
@@ -25,7 +27,7 @@ layout(push_constant) uniform Push { SliceConstants slice; };
 vec4 forwardFractions(float n) {
   float x = depthCoordinate(n) * 31.0f;
   float i = min(floor(x), 30.0f);
-  return mix(volume.forwardFraction[int(i)], volume.forwardFraction[int(i) + 1], x - i);
+  return mix(volumeBlock.forwardFraction[int(i)], volumeBlock.forwardFraction[int(i) + 1], x - i);
 }
 
 void main() {

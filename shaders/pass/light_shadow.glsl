@@ -9,8 +9,8 @@ const int SHADOW_PARTS = 4;
 const int SHADOW_HALVINGS = 4;
 
 vec3 cascadeOf(int i, vec4 p) {
-  return vec3(dot(frame.cascade[3 * i], p), dot(frame.cascade[3 * i + 1], p),
-              dot(frame.cascade[3 * i + 2], p));
+  return vec3(dot(frameBlock.cascade[3 * i], p), dot(frameBlock.cascade[3 * i + 1], p),
+              dot(frameBlock.cascade[3 * i + 2], p));
 }
 
 // Whether something opaque stands between a point relative to the eye and the light: 1 or 0. By the
@@ -26,7 +26,7 @@ float mapShadow(vec3 position) {
     vec3 inner = abs(at - vec3(0.5f));
     bool inside = max(max(inner.x, inner.y), inner.z) <= 0.5f;
     place = inside ? at : place;
-    depth = inside ? frame.cascadeDepth[i].xyz : depth;
+    depth = inside ? frameBlock.cascadeDepth[i].xyz : depth;
     layer = inside ? float(i) : layer;
     i -= 1;
   } while (i >= 0);
@@ -41,7 +41,8 @@ Span mapSpan(vec3 direction, float reach) {
   all.end = 0.0f;
   int i = int(frame.shadowRange.y) - 1;
   do {
-    vec3 at = vec3(frame.cascade[3 * i].w, frame.cascade[3 * i + 1].w, frame.cascade[3 * i + 2].w);
+    vec3 at = vec3(frameBlock.cascade[3 * i].w, frameBlock.cascade[3 * i + 1].w,
+                   frameBlock.cascade[3 * i + 2].w);
     vec3 rate = cascadeOf(i, vec4(direction, 0.0f));
     Span one = rayBox(at, rate, vec3(0.0f), vec3(1.0f));
     bool meets = one.end > one.begin;

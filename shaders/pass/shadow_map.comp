@@ -11,7 +11,8 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 3) const uint FIELD_COUNT = 1;
 
-layout(set = 0, binding = 0, std140) uniform Volume { ShadowVolume volume; };
+layout(set = 0, binding = 0, std140) uniform Volume { ShadowVolume volumeBlock; };
+ShadowVolume volume = volumeBlock;
 // Per texel the optical depth, or that, mean of d and optical depth times variance of d, and, if
 // asked for, the optical depth of absorption.
 layout(set = 0, binding = 1, std430) buffer Sums { float sums[]; };
@@ -20,7 +21,8 @@ layout(set = 0, binding = 4) uniform sampler3D field1;
 layout(set = 0, binding = 5) uniform sampler3D field2;
 layout(set = 0, binding = 6) uniform sampler3D field3;
 layout(set = 0, binding = 7) uniform sampler3D pages;
-layout(push_constant) uniform Push { ShadowConstants map; };
+layout(push_constant) uniform Push { ShadowConstants mapBlock; };
+ShadowConstants map = mapBlock;
 
 #include "fields.glsl"
 

@@ -9,7 +9,8 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 1, std430) readonly buffer Sums { float sums[]; };
 layout(set = 0, binding = 2) uniform writeonly image2D target;
-layout(push_constant) uniform Push { ShadowConstants map; };
+layout(push_constant) uniform Push { ShadowConstants mapBlock; };
+ShadowConstants map = mapBlock;
 
 const float LARGEST_HALF = 65504.0f;
 

@@ -8,7 +8,8 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
+layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frameBlock; };
+FrameUniforms frame = frameBlock;
 layout(set = 0, binding = 1) uniform sampler2D skyMoments;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image3D skyTable;
 layout(set = 0, binding = 3, rgba32f) uniform writeonly image3D skyPeak;
@@ -94,7 +95,7 @@ void main() {
     }
     return;
   }
-  LightUniforms light = frame.lights[which];
+  LightUniforms light = frameBlock.lights[which];
   Air air = airOf(frame);
   bool below = place.y >= above;
   float rise = below ? float(place.y - above) / float(SKY_BELOW - 1)

@@ -8,7 +8,8 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 5) const bool DEPTH_ENABLED = true;
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
+layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frameBlock; };
+FrameUniforms frame = frameBlock;
 layout(set = 0, binding = 5) uniform sampler2D depthImage;
 #include "surface_mesh.glsl"
 #include "ray.glsl"

@@ -10,10 +10,12 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 14) const bool DISTANCE = false;
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
+layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frameBlock; };
+FrameUniforms frame = frameBlock;
 layout(set = 0, binding = 6, std430) buffer FrameState { vec4 frameState[]; };
 layout(set = 0, binding = 18, std430) buffer Distances { vec4 distances[]; };
-layout(push_constant) uniform Push { SliceConstants slice; };
+layout(push_constant) uniform Push { SliceConstants sliceBlock; };
+SliceConstants slice = sliceBlock;
 
 #include "surface_mesh.glsl"
 #include "surface_list.glsl"

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Texels of a surface's light map from what its triangles cover, and four levels of means above.
+// Texels of a surface's light map from what its triangles cover, and the levels of means above.
 // Texels of the levels follow each other, coarser ones last; copies make images of them.
+//
+// An invocation has what it takes the means of at hand: sharing it with others, or levels that few
+// of them have a part in, costs drivers such as lavapipe a third of the pass.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
@@ -15,24 +18,28 @@ layout(constant_id = 7) const bool DETAIL = true;
 layout(set = 0, binding = 8, std430) readonly buffer Faces { SurfaceFaces faces[]; };
 layout(set = 0, binding = 9, std430) buffer Levels { vec4 levels[]; };
 layout(set = 0, binding = 7, rgba32f) writeonly uniform image2D depths;
-layout(push_constant) uniform Push { SliceConstants slice; };
+layout(push_constant) uniform Push { SliceConstants sliceBlock; };
+SliceConstants slice = sliceBlock;
 
 struct MapTexel {
   vec4 column;  // coverage, through (m), x and y of the lit face's normal
   vec4 face;    // z of that; x and y of the shaded face's; depth of the lit face, m
 };
 
-shared vec4 columns[64];
-shared vec4 sides[64];
+// The mesh in the light's frame, read before loops: such drivers do not take a uniform out of one.
+struct MapFrame {
+  vec4 x;
+  vec4 y;
+  vec4 depth;
+};
 
 // Normal in the light's frame, of either sign; 0 where the triangle is seen edge on.
-vec3 normalOf(uint triangle) {
+vec3 normalOf(MapFrame f, uint triangle) {
   uvec3 corners = surfaceCorners(triangle);
   vec3 p[3];
   for (uint i = 0u; i < 3u; ++i) {
     vec4 at = vec4(surfaceVertex(corners[i]), 1.0f);
-    p[i] = vec3(dot(surface.pixelX, at) * surface.map.x, dot(surface.pixelY, at) * surface.map.x,
-                -dot(surface.depth, at));
+    p[i] = vec3(dot(f.x, at), dot(f.y, at), -dot(f.depth, at));
   }
   return directionOr(cross(p[1] - p[0], p[2] - p[0]), vec3(0.0f));
 }
@@ -48,7 +55,7 @@ ShellRay shellRay(vec2 place) {
   return ray;
 }
 
-MapTexel fromTriangles(uvec2 texel, uint size) {
+MapTexel fromTriangles(MapFrame frame, uvec2 texel, uint size) {
   uint at = texel.y * size + texel.x;
   SurfaceCover cover = coverOf(at);
   MapTexel result;
@@ -58,8 +65,8 @@ MapTexel fromTriangles(uvec2 texel, uint size) {
   if (cover.chord > 0 && cover.front != 0u) {
     uint lit = faces[at].lit;
     uint shaded = faces[at].shaded;
-    vec3 near = lit > 0u ? normalOf(lit - 1u) : vec3(0.0f);
-    vec3 far = shaded > 0u ? normalOf(shaded - 1u) : vec3(0.0f);
+    vec3 near = lit > 0u ? normalOf(frame, lit - 1u) : vec3(0.0f);
+    vec3 far = shaded > 0u ? normalOf(frame, shaded - 1u) : vec3(0.0f);
     near = near.z < 0.0f ? -near : near;
     far = far.z > 0.0f ? -far : far;
     float metre = 1.0f / surface.steps.y;
@@ -93,63 +100,57 @@ void store(uint row, MapTexel texel) {
   levels[slice.slabCount + row] = texel.face;
 }
 
+MapTexel fromLevel(uint row) {
+  return MapTexel(levels[row], levels[slice.slabCount + row]);
+}
+
+void addTo(inout MapTexel mean, MapTexel one) {
+  mean.column += 0.25f * one.column;
+  mean.face += 0.25f * one.face;
+}
+
+// The mean of the four texels of a level, `size` along an edge from row `first`, that texel `block`
+// of the next covers; those of the lowest level are made.
+MapTexel meanOf(MapFrame frame, uvec2 block, uint size, uint first) {
+  MapTexel mean = MapTexel(vec4(0.0f), vec4(0.0f));
+  for (uint corner = 0u; corner < 4u; ++corner) {
+    uvec2 texel = 2u * block + uvec2(corner & 1u, corner >> 1u);
+    uint row = first + texel.y * size + texel.x;
+    if (FROM_LEVEL) {
+      addTo(mean, fromLevel(row));
+    } else {
+      MapTexel one = fromTriangles(frame, texel, size);
+      store(row, one);
+      addTo(mean, one);
+    }
+  }
+  return mean;
+}
+
 // slice.lightSize: texels along an edge of the level at hand; firstSlab: row its texels begin at;
-// slabCount: rows of all levels, behind which the faces' begin. An invocation takes four texels and
-// has their mean at hand: drivers such as lavapipe take all lanes through the levels above, which
-// few of them have anything to do with.
+// slabCount: rows of all levels, behind which the faces' begin. From triangles one level of means,
+// from a level two, where there are so many.
 void main() {
   uint size = slice.lightSize;
-  uint half_ = size / 2u;
-  uvec2 block = gl_GlobalInvocationID.xy;
-  uint lane = gl_LocalInvocationIndex;
-  MapTexel mean;
-  mean.column = vec4(0.0f);
-  mean.face = vec4(0.0f);
+  uint next = size / 2u;
   uint first = slice.firstSlab;
-  if (block.x < half_ && block.y < half_) {
-    for (uint corner = 0u; corner < 4u; ++corner) {
-      uvec2 texel = 2u * block + uvec2(corner & 1u, corner >> 1u);
-      uint row = first + texel.y * size + texel.x;
-      MapTexel one;
-      if (FROM_LEVEL) {
-        one.column = levels[row];
-        one.face = levels[slice.slabCount + row];
-      } else {
-        one = fromTriangles(texel, size);
-        store(row, one);
+  uint above = first + size * size;
+  uvec2 at = gl_GlobalInvocationID.xy;
+  float texel = surface.map.x;
+  MapFrame frame = MapFrame(texel * surface.pixelX, texel * surface.pixelY, surface.depth);
+  if (FROM_LEVEL && next > 1u) {
+    uint last = next / 2u;
+    if (at.x < last && at.y < last) {
+      MapTexel mean = MapTexel(vec4(0.0f), vec4(0.0f));
+      for (uint corner = 0u; corner < 4u; ++corner) {
+        uvec2 block = 2u * at + uvec2(corner & 1u, corner >> 1u);
+        MapTexel one = meanOf(frame, block, size, first);
+        store(above + block.y * next + block.x, one);
+        addTo(mean, one);
       }
-      mean.column += 0.25f * one.column;
-      mean.face += 0.25f * one.face;
+      store(above + next * next + at.y * last + at.x, mean);
     }
-    store(first + size * size + block.y * half_ + block.x, mean);
-  }
-  columns[lane] = mean.column;
-  sides[lane] = mean.face;
-  for (uint level = 2u; level <= SURFACE_MAP_LEVELS; ++level) {
-    memoryBarrierShared();
-    barrier();
-    first += size * size;
-    size /= 2u;
-    uint edge = 16u >> level;
-    uvec2 here = uvec2(lane % edge, lane / edge);
-    bool mine = lane < edge * edge && size > 1u;
-    if (mine) {
-      uint corner = 4u * edge * here.y + 2u * here.x;
-      mean.column = 0.25f * (columns[corner] + columns[corner + 1u] + columns[corner + 2u * edge] +
-                             columns[corner + 2u * edge + 1u]);
-      mean.face = 0.25f * (sides[corner] + sides[corner + 1u] + sides[corner + 2u * edge] +
-                           sides[corner + 2u * edge + 1u]);
-      uvec2 place = gl_WorkGroupID.xy * edge + here;
-      uint above = size / 2u;
-      if (place.x < above && place.y < above) {
-        store(first + size * size + place.y * above + place.x, mean);
-      }
-    }
-    memoryBarrierShared();
-    barrier();
-    if (mine) {
-      columns[lane] = mean.column;
-      sides[lane] = mean.face;
-    }
+  } else if (at.x < next && at.y < next) {
+    store(above + at.y * next + at.x, meanOf(frame, at, size, first));
   }
 }

@@ -3,7 +3,8 @@
 #include "../interface/surface.glsl"
 #include "texels.glsl"
 
-layout(set = 0, binding = 1, std140) uniform Surface { SurfaceUniforms surface; };
+layout(set = 0, binding = 1, std140) uniform Surface { SurfaceUniforms surfaceBlock; };
+SurfaceUniforms surface = surfaceBlock;
 // Positions and triangles, row by row. Images, as texels cost drivers such as lavapipe less than a
 // word of a buffer does.
 layout(set = 0, binding = 2, rgba32f) readonly uniform image2D vertices;
@@ -37,7 +38,10 @@ uvec4 coverRow(uint at) {
 
 SurfaceCover coverOf(uint at) {
   uvec4 row = coverRow(at);
-  return SurfaceCover(row.x, row.y, row.z, int(row.w));
+  uint leave = row[SURFACE_LEAVE] != 0u ? ~row[SURFACE_LEAVE] : 0u;
+  uint enter = row[SURFACE_FRONT] != 0u ? ~row[SURFACE_FRONT] : 0u;
+  return SurfaceCover(row[SURFACE_FRONT], row[SURFACE_LEAVE], max(row[SURFACE_FARTHEST], leave),
+                      int(row[SURFACE_REST] + leave - enter));
 }
 
 // The word of a pixel behind those of all.

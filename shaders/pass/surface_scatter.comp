@@ -9,14 +9,16 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 13) const bool HALF = false;
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
+layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frameBlock; };
+FrameUniforms frame = frameBlock;
 layout(set = 0, binding = 6, std430) buffer FrameState { vec4 frameState[]; };
 layout(set = 0, binding = 7, rgba32f) readonly uniform image2D depths;
 layout(set = 0, binding = 10) uniform sampler2D columns;
 layout(set = 0, binding = 11) uniform sampler2D faces;
 layout(set = 0, binding = 12) uniform sampler3D source;
 layout(set = 0, binding = 13) uniform sampler2D curves;
-layout(push_constant) uniform Push { SliceConstants slice; };
+layout(push_constant) uniform Push { SliceConstants sliceBlock; };
+SliceConstants slice = sliceBlock;
 
 #include "surface_mesh.glsl"
 #include "surface_list.glsl"

@@ -23,7 +23,8 @@ layout(constant_id = 9) const bool AMBIENT = false;
 layout(constant_id = 13) const bool HALF = false;
 layout(constant_id = 14) const bool DISTANCE = false;
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
+layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frameBlock; };
+FrameUniforms frame = frameBlock;
 layout(set = 0, binding = 6, std430) buffer FrameState { vec4 frameState[]; };
 layout(set = 0, binding = 7, rgba32f) readonly uniform image2D depths;
 layout(set = 0, binding = 10) uniform sampler2D columns;
@@ -40,7 +41,8 @@ layout(set = 0, binding = 19) uniform sampler2D upDepths;
 layout(set = 0, binding = 20) uniform sampler2D upColumns;
 layout(set = 0, binding = 21) uniform sampler2D upFaces;
 layout(set = 0, binding = 22) uniform sampler2D skyShare;
-layout(push_constant) uniform Push { SliceConstants slice; };
+layout(push_constant) uniform Push { SliceConstants sliceBlock; };
+SliceConstants slice = sliceBlock;
 
 #include "surface_mesh.glsl"
 layout(set = 0, binding = 29) uniform usamplerBuffer frameTexels;

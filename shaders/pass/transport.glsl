@@ -9,7 +9,8 @@ layout(set = 0, binding = 0, std140) uniform Volume { TransportUniforms volume; 
 layout(set = 0, binding = 1, std430) buffer Work { float work[]; };
 layout(set = 0, binding = 2, std430) buffer Kept { float kept[]; };
 layout(set = 0, binding = 11, std430) buffer Swept { float swept[]; };
-layout(push_constant) uniform Push { TransportPush push; };
+layout(push_constant) uniform Push { TransportPush pushBlock; };
+TransportPush push = pushBlock;
 
 // Lists of `kept`. Over all levels: extinction without the peak (1/m), light that is scattered
 // there first, moments of the phase function times albedo (degrees 0 to 4), terms of the source; of

@@ -7,7 +7,8 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frame; };
+layout(set = 0, binding = 0, std140) uniform Frame { FrameUniforms frameBlock; };
+FrameUniforms frame = frameBlock;
 layout(set = 0, binding = 1, std430) readonly buffer Distances { vec4 distances[]; };
 layout(set = 0, binding = 2) uniform writeonly image2D target;
 

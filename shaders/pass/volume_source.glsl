@@ -40,7 +40,7 @@ vec3 fieldSource(uint field, float depth, float angle, vec3 box) {
 #define PAIR_SHAPE volume.pairShape
 #include "pair_shape.glsl"
 
-// Copies, see fields.glsl.
+// Copies, see common.glsl.
 vec4 gridScale_ = volume.gridScale;
 vec3 gridOffset_ = volume.gridOffset.xyz;
 vec4 gridEnd_ = volume.gridEnd;

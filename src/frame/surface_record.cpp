@@ -13,7 +13,6 @@ namespace {
 
 using interface_::FrameUniforms;
 using interface_::SliceConstants;
-using interface_::SURFACE_MAP_LEVELS;
 using interface_::SurfaceCover;
 using interface_::SurfaceFaces;
 using interface_::SurfaceUniforms;
@@ -159,15 +158,16 @@ class SurfaceRecorder {
     SliceConstants push{};
     push.slabCount = surfaceMapTexels(edge);
     bool fromLevel = false;
-    for (uint32_t size = edge; size > 1; size >>= SURFACE_MAP_LEVELS) {
+    for (uint32_t size = edge; size > 1;) {
+      const uint32_t means = fromLevel && size > 2 ? 2 : 1;  // levels of them
       push.lightSize = size;
       c_.orderShaders();
       const bool detail = !fromLevel && isDetailed(surface_);
       c_.dispatch(c_.find(surfaceMapKey(fromLevel, detail)), c_.pipelines.surfaceLayout(), &push,
-                  groups(size / 2), groups(size / 2), stats, index_);
+                  groups(size >> means), groups(size >> means), stats, index_);
       fromLevel = true;
-      for (uint32_t level = 0; level < SURFACE_MAP_LEVELS; ++level) {
-        push.firstSlab += (size >> level) * (size >> level);
+      for (uint32_t level = 0; level < means; ++level, size /= 2) {
+        push.firstSlab += size * size;
       }
     }
   }

@@ -3,6 +3,8 @@
 // with boxes around triangles and atomic sums in place of loops over everything.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <vector>
@@ -92,6 +94,20 @@ std::vector<Covered> onCpu(const ClosedMesh& mesh, const SurfaceUniforms& u) {
   return cover;
 }
 
+// Of words as surface_cross.glsl counts them.
+SurfaceCover coverOf(const std::array<uint32_t, SURFACE_COVER_WORDS>& row) {
+  SurfaceCover cover{row[SURFACE_FRONT], row[SURFACE_LEAVE], row[SURFACE_FARTHEST],
+                     static_cast<int>(row[SURFACE_REST])};
+  if (cover.front != 0) {
+    cover.chord -= static_cast<int>(~cover.front);
+  }
+  if (cover.leave != 0) {
+    cover.chord += static_cast<int>(~cover.leave);
+    cover.back = std::max(cover.back, ~cover.leave);
+  }
+  return cover;
+}
+
 std::vector<Covered> onDevice(support::ComputeRunner& runner, const ClosedMesh& mesh,
                               SurfaceUniforms u) {
   const auto triangles = static_cast<uint32_t>(mesh.triangle.size());
@@ -114,7 +130,9 @@ std::vector<Covered> onDevice(support::ComputeRunner& runner, const ClosedMesh& 
                  STRIPS * ((triangles + SURFACE_LANES - 1) / SURFACE_LANES));
   std::vector<Covered> cover(size_t{WIDTH} * HEIGHT);
   for (size_t i = 0; i < cover.size(); ++i) {
-    std::memcpy(&cover[i].cover, &output[i * SURFACE_COVER_WORDS], sizeof(SurfaceCover));
+    std::array<uint32_t, SURFACE_COVER_WORDS> row{};
+    std::memcpy(row.data(), &output[i * SURFACE_COVER_WORDS], sizeof row);
+    cover[i].cover = coverOf(row);
     cover[i].passed = std::bit_cast<uint32_t>(output[cover.size() * SURFACE_COVER_WORDS + i]);
   }
   return cover;
