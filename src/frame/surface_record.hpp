@@ -15,9 +15,9 @@ void findSurfacePipelines(const FrameCommands& commands, const ViewTargets& targ
 void recordSurface(FrameCommands& commands, const ViewTargets& targets,
                    const PlannedVolume& planned, bool first);
 
-// Of a surface in a frame, at most: 3 of the shell, 5 of each of two light maps, 9 of what the eye
+// Of a surface in a frame, at most: 3 of the shell, 7 of each of two light maps, 9 of what the eye
 // sees.
-constexpr uint32_t SURFACE_DISPATCHES = 22;
+constexpr uint32_t SURFACE_DISPATCHES = 26;
 // Pictures of a surface that have constants of their own: along the light, along the vertical, the
 // view's, and that of the cells of its detail.
 constexpr uint32_t SURFACE_PICTURES = 4;
