@@ -10,7 +10,9 @@ struct SurfaceUniforms {
   vec4 steps;      // x: depth of step 0; y: steps per m; z: most; w: depths from here count
   ivec4 rect;      // pixels x0, y0, x1, y1 that the surface may cover
   ivec4 shade;     // those that the view's pass runs over
-  uvec4 triangle;  // x: how many; y: rows of pixels in a strip; z: 1 if the picture is mirrored
+  // x: how many; y: rows of pixels in a strip of large ones; z: 1 if the picture is mirrored; w: so
+  // many large ones have workgroups of their own.
+  uvec4 triangle;
   vec4 axis;       // of the view
   // Light map: texel u, v and depth in m of a position, as dot((position, 1), row).
   vec4 lightX;
@@ -71,6 +73,8 @@ struct SurfaceFaces {
 const uint SURFACE_MESH_ROW = 4096u;
 const uint SURFACE_LANES = 64u;   // triangles of a workgroup
 const uint SURFACE_ROW = 32768u;  // workgroups along x
+const uint SURFACE_LARGE_HEAD = 4u;  // words before the list of large triangles
+const uint SURFACE_LARGE_MOST = 32768u;  // in that list
 const uint SURFACE_CELL = 4u;     // pixels along an edge that one lane lists
 // The buffer of a view's lists, in uints: for each list the groups of its dispatch along three
 // axes, the first of which serves any length, and how many pixels it has. Then as many pixels, x +

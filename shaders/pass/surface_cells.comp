@@ -11,7 +11,7 @@ layout(set = 0, binding = 24, std430) buffer Cells { int cells[]; };
 
 void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing,
                   uint triangle);
-#include "surface_cover.glsl"
+#include "surface_large.glsl"
 
 void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing,
                   uint triangle) {
@@ -29,5 +29,5 @@ void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing cross
 }
 
 void main() {
-  coverTriangles(surface, gl_WorkGroupID, gl_LocalInvocationIndex);
+  coverSurface();
 }

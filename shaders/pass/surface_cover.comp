@@ -12,7 +12,7 @@ layout(constant_id = 5) const bool ENDS = true;
 
 void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing,
                   uint triangle);
-#include "surface_cover.glsl"
+#include "surface_large.glsl"
 #include "surface_cross.glsl"
 
 void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing,
@@ -22,5 +22,5 @@ void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing cross
 }
 
 void main() {
-  coverTriangles(surface, gl_WorkGroupID, gl_LocalInvocationIndex);
+  coverSurface();
 }

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Triangles into the pixels of a SurfaceCover buffer: a workgroup has a triangle for each lane;
-// those that cover many pixels are shared by some lanes, or by all.
+// those that cover many pixels are shared by some lanes, or by all. The largest have workgroups of
+// their own, coverLarge, since drivers such as lavapipe end one without a word after 65535 rounds
+// of its loops.
 //
-// Before: `surfaceVertex(i)` a mesh position, `surfaceCorners(triangle)`, and
-// `surfaceCross(uniforms, pixel, index in the buffer, crossing, triangle)`.
+// Before: `surfaceVertex(i)` a mesh position, `surfaceCorners(triangle)`,
+// `surfaceCross(uniforms, pixel, index in the buffer, crossing, triangle)`, and
+// `surfaceLater(uniforms, triangle)`: whether coverLarge will be called for it.
 
 // Beside the exact box of a triangle, in pixels, for the rounding of its corners: in pictures of
 // 16384 they are known to 4e-3 (2.5 units in the last place of a division, and those of what is
 // divided).
 const float SURFACE_MARGIN = 1.0f / 16.0f;
-// Vertices nearer than this part of the farthest one's depth: the box is the whole rectangle.
+// Vertices nearer than this part of the farthest one's depth count as behind the eye.
 const float SURFACE_NEAR = 1.0e-4f;
+const float SURFACE_FAR = 1.0e30f;  // outside any picture
 
 shared uint surfaceLarge[SURFACE_LANES];
 shared uint surfaceLargeCount;
@@ -35,23 +39,39 @@ vec3 surfacePoint(SurfaceUniforms s, vec3 p) {
   return at;
 }
 
+// Pixels between a vertex before the eye and one that is not: from the former's on, the edge runs
+// off to infinity. Where rounding hides to which side, to both.
+vec4 surfaceBeyond(vec4 box, vec3 from, vec3 to) {
+  vec2 a = to.xy * from.z;
+  vec2 b = from.xy * to.z;
+  vec2 slack = 1.0e-5f * (abs(a) + abs(b));
+  return vec4(mix(box.xy, vec2(-SURFACE_FAR), lessThanEqual(a - b, slack)),
+              mix(box.zw, vec2(SURFACE_FAR), greaterThanEqual(a - b, -slack)));
+}
+
 // Pixels of the strip y0, y1 that the triangle may cover, x0, y0, x1, y1.
 ivec4 surfaceBox(SurfaceUniforms s, ivec2 strip, vec3 a, vec3 b, vec3 c) {
-  float least = min(min(a.z, b.z), c.z);
   float most = max(max(a.z, b.z), c.z);
   if (!(most > 0.0f)) {
     return ivec4(0);
   }
-  vec4 rect = vec4(float(s.rect.x), float(strip.x), float(s.rect.z), float(strip.y));
-  if (!(least > SURFACE_NEAR * most)) {
-    return ivec4(rect);
+  vec3 corner[3] = vec3[3](a, b, c);
+  vec4 box = vec4(vec2(SURFACE_FAR), vec2(-SURFACE_FAR));
+  for (int i = 0; i < 3; ++i) {
+    vec3 from = corner[i];
+    vec3 next = corner[(i + 1) % 3];
+    vec3 last = corner[(i + 2) % 3];
+    if (from.z > SURFACE_NEAR * most) {
+      vec2 p = from.xy / from.z;
+      box = vec4(min(box.xy, p), max(box.zw, p));
+      box = next.z > SURFACE_NEAR * most ? box : surfaceBeyond(box, from, next);
+      box = last.z > SURFACE_NEAR * most ? box : surfaceBeyond(box, from, last);
+    }
   }
-  vec2 p = a.xy / a.z;
-  vec2 q = b.xy / b.z;
-  vec2 r = c.xy / c.z;
   // Clamped as floats: integers of what is far outside are undefined.
-  vec2 low = clamp(ceil(min(min(p, q), r) - SURFACE_MARGIN), rect.xy, rect.zw);
-  vec2 high = clamp(floor(max(max(p, q), r) + SURFACE_MARGIN) + 1.0f, rect.xy, rect.zw);
+  vec4 rect = vec4(float(s.rect.x), float(strip.x), float(s.rect.z), float(strip.y));
+  vec2 low = clamp(ceil(box.xy - SURFACE_MARGIN), rect.xy, rect.zw);
+  vec2 high = clamp(floor(box.zw + SURFACE_MARGIN) + 1.0f, rect.xy, rect.zw);
   return ivec4(ivec2(low), ivec2(high));
 }
 
@@ -106,25 +126,23 @@ void coverBox(SurfaceUniforms s, SurfaceTriangle t, uint triangle, uint first, u
   }
 }
 
-// Workgroup x + SURFACE_ROW y takes its triangles, z a strip of rows.
-void coverTriangles(SurfaceUniforms s, uvec3 group, uint lane) {
+// Workgroup x + SURFACE_ROW y takes its triangles.
+void coverTriangles(SurfaceUniforms s, uvec2 group, uint lane) {
   if (lane == 0u) {
     surfaceLargeCount = 0u;
     surfaceMiddleCount = 0u;
   }
   memoryBarrierShared();
   barrier();
-  int first = s.rect.y + int(group.z * s.triangle.y);
-  ivec2 strip = ivec2(first, min(first + int(s.triangle.y), s.rect.w));
   uint triangle = (group.y * SURFACE_ROW + group.x) * SURFACE_LANES + lane;
   if (triangle < s.triangle.x) {
-    SurfaceTriangle t = surfaceTriangle(s, strip, triangle);
+    SurfaceTriangle t = surfaceTriangle(s, s.rect.yw, triangle);
     uint pixels = surfaceBoxSize(t.box);
     if (pixels <= SURFACE_SMALL) {
       coverBox(s, t, triangle, 0u, 1u);
     } else if (pixels <= SURFACE_MIDDLE) {
       surfaceMiddle[atomicAdd(surfaceMiddleCount, 1u)] = triangle;
-    } else {
+    } else if (!surfaceLater(s, triangle)) {
       surfaceLarge[atomicAdd(surfaceLargeCount, 1u)] = triangle;
     }
   }
@@ -132,12 +150,19 @@ void coverTriangles(SurfaceUniforms s, uvec3 group, uint lane) {
   barrier();
   uint middle = surfaceMiddleCount;
   for (uint i = lane / SURFACE_TEAM; i < middle; i += SURFACE_LANES / SURFACE_TEAM) {
-    SurfaceTriangle t = surfaceTriangle(s, strip, surfaceMiddle[i]);
+    SurfaceTriangle t = surfaceTriangle(s, s.rect.yw, surfaceMiddle[i]);
     coverBox(s, t, surfaceMiddle[i], lane & (SURFACE_TEAM - 1u), SURFACE_TEAM);
   }
   uint large = surfaceLargeCount;
   for (uint i = 0u; i < large; ++i) {
-    SurfaceTriangle t = surfaceTriangle(s, strip, surfaceLarge[i]);
+    SurfaceTriangle t = surfaceTriangle(s, s.rect.yw, surfaceLarge[i]);
     coverBox(s, t, surfaceLarge[i], lane, SURFACE_LANES);
   }
+}
+
+// A triangle of many pixels, in one strip of their rows.
+void coverLarge(SurfaceUniforms s, uint triangle, uint strip, uint lane) {
+  int first = s.rect.y + int(strip * s.triangle.y);
+  ivec2 rows = ivec2(first, min(first + int(s.triangle.y), s.rect.w));
+  coverBox(s, surfaceTriangle(s, rows, triangle), triangle, lane, SURFACE_LANES);
 }

@@ -11,7 +11,7 @@ layout(set = 0, binding = 8, std430) buffer Faces { uint faceWords[]; };
 
 void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing,
                   uint triangle);
-#include "surface_cover.glsl"
+#include "surface_large.glsl"
 
 void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing,
                   uint triangle) {
@@ -24,5 +24,5 @@ void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing cross
 }
 
 void main() {
-  coverTriangles(surface, gl_WorkGroupID, gl_LocalInvocationIndex);
+  coverSurface();
 }

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "frame/ladder.hpp"
-#include "frame/surface_record.hpp"
+#include "frame/surface_buffers.hpp"
 #include "tables/detail_noise.hpp"
 
 namespace welkin {

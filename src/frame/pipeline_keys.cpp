@@ -58,18 +58,24 @@ vk::PipelineKey surfaceEndsKey(bool depth) {
   return key;
 }
 
-vk::PipelineKey surfaceCoverKey(bool ends) {
-  vk::PipelineKey key{vk::Pass::SurfaceCover, VK_FORMAT_UNDEFINED, {}};
+static vk::PipelineKey trianglesKey(vk::Pass pass, bool large) {
+  vk::PipelineKey key{pass, VK_FORMAT_UNDEFINED, {}};
+  key.constants[6] = large;
+  return key;
+}
+
+vk::PipelineKey surfaceCoverKey(bool ends, bool large) {
+  vk::PipelineKey key = trianglesKey(vk::Pass::SurfaceCover, large);
   key.constants[5] = ends;
   return key;
 }
 
-vk::PipelineKey surfaceFacesKey() {
-  return {vk::Pass::SurfaceFaces, VK_FORMAT_UNDEFINED, {}};
+vk::PipelineKey surfaceFacesKey(bool large) {
+  return trianglesKey(vk::Pass::SurfaceFaces, large);
 }
 
-vk::PipelineKey surfaceCellsKey() {
-  return {vk::Pass::SurfaceCells, VK_FORMAT_UNDEFINED, {}};
+vk::PipelineKey surfaceCellsKey(bool large) {
+  return trianglesKey(vk::Pass::SurfaceCells, large);
 }
 
 vk::PipelineKey surfaceShellKey(bool means) {
@@ -164,13 +170,15 @@ vk::PipelineKey compositeKey(const WlkViewInfo& info, const CompositeVariant& v)
 
 static void prepareSurfaces(vk::Pipelines& pipelines, const ViewState& view,
                             const SliceQuality& quality, const SurfaceVariant& usual) {
-  pipelines.prepare(surfaceFacesKey());
-  pipelines.prepare(surfaceCellsKey());
   pipelines.prepare(surfaceScatterKey(quality.halfVolumes));
   pipelines.prepare(surfaceMapKey(true, false));
   for (const bool either : {false, true}) {
     pipelines.prepare(surfaceEndsKey(either));
-    pipelines.prepare(surfaceCoverKey(either));
+    for (const bool large : {false, true}) {
+      pipelines.prepare(surfaceCoverKey(either, large));
+    }
+    pipelines.prepare(surfaceFacesKey(either));
+    pipelines.prepare(surfaceCellsKey(either));
     pipelines.prepare(surfaceMapKey(false, either));
     pipelines.prepare(surfaceShellKey(either));
   }

@@ -10,6 +10,7 @@
 #include "frame/ambient.hpp"
 #include "frame/ladder.hpp"
 #include "frame/shadow_map_record.hpp"
+#include "frame/surface_buffers.hpp"
 #include "frame/surface_record.hpp"
 #include "frame/transport_record.hpp"
 #include "frame/uniforms.hpp"

@@ -76,9 +76,9 @@ struct SurfaceVariant {
   bool fog, light, allLight, distance, ambient, detail;
 };
 vk::PipelineKey surfaceEndsKey(bool depth);
-vk::PipelineKey surfaceCoverKey(bool ends);
-vk::PipelineKey surfaceFacesKey();
-vk::PipelineKey surfaceCellsKey();
+vk::PipelineKey surfaceCoverKey(bool ends, bool large);
+vk::PipelineKey surfaceFacesKey(bool large);
+vk::PipelineKey surfaceCellsKey(bool large);
 vk::PipelineKey surfaceShellKey(bool means);
 vk::PipelineKey surfaceMapKey(bool fromLevel, bool detail);
 vk::PipelineKey surfaceListKey(bool distance, bool half);

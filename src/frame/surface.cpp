@@ -17,9 +17,8 @@ using interface_::SurfaceUniforms;
 constexpr double STEPS = 1 << 20;
 // Texels of the light map on each side in which nothing of the mesh lies.
 constexpr double BORDER = 2;
-// Pixels of a view that one workgroup's large triangles are worth sharing over.
-constexpr uint32_t STRIPS = 64;
-constexpr uint32_t ENOUGH_GROUPS = 256;
+// Pixels of a large triangle's strip: 512 rounds of its workgroup.
+constexpr uint32_t STRIP_PIXELS = 32768;
 
 glm::vec4 rowOf(const glm::dvec4& row) {
   return glm::vec4(row);
@@ -123,10 +122,8 @@ glm::dmat4x3 SurfaceState::worldFromBox() const {
 }
 
 void fillTriangles(const SurfaceState& s, bool mirrored, SurfaceUniforms& out) {
-  const uint32_t rows = static_cast<uint32_t>(std::max(out.rect.w - out.rect.y, 1));
-  const uint32_t all = (s.triangles + interface_::SURFACE_LANES - 1) / interface_::SURFACE_LANES;
-  const uint32_t strips = std::clamp(ENOUGH_GROUPS / all, 1U, std::min(STRIPS, rows));
-  out.triangle = {s.triangles, (rows + strips - 1) / strips, mirrored ? 1U : 0U, 0};
+  const auto wide = static_cast<uint32_t>(std::max(out.rect.z - out.rect.x, 1));
+  out.triangle = {s.triangles, std::max(STRIP_PIXELS / wide, 1U), mirrored ? 1U : 0U, 0};
 }
 
 SurfaceTables makeSurfaceTables(vk::Device& device) {

@@ -7,13 +7,13 @@
 #include "failure.hpp"
 #include "frame/resources.hpp"
 #include "frame/sky_bindings.hpp"
+#include "frame/surface_buffers.hpp"
 
 namespace welkin {
 namespace {
 
 using interface_::FrameUniforms;
 using interface_::SliceConstants;
-using interface_::SurfaceCover;
 using interface_::SurfaceFaces;
 using interface_::SurfaceUniforms;
 
@@ -39,9 +39,10 @@ bool raysEnd(const FrameCommands& c, const ViewTargets& targets) {
   return static_cast<bool>(targets.depth) || c.view.plan.ground;
 }
 
-// Of the cover of so many pixels, with the word behind those of all that each has, or without.
-VkDeviceSize coverBytes(VkDeviceSize pixels, bool further) {
-  return pixels * (sizeof(SurfaceCover) + (further ? sizeof(uint32_t) : 0));
+// Large triangles that a list of so many bytes has room for.
+uint32_t largeRoom(VkDeviceSize bytes) {
+  const VkDeviceSize room = bytes / sizeof(uint32_t) - interface_::SURFACE_LARGE_HEAD;
+  return static_cast<uint32_t>(std::min<VkDeviceSize>(room, interface_::SURFACE_LARGE_MOST));
 }
 
 class SurfaceRecorder {
@@ -117,8 +118,7 @@ class SurfaceRecorder {
     const VkDeviceSize bytes = VkDeviceSize{x} * y * z * sizeof(float);
     const vk::Buffer& cells = c_.in.surfaceTables->cells;
     clear(cells, bytes);
-    orderClears();
-    triangles(surfaceCellsKey(), uniforms, stats, index_);
+    triangles(surfaceCellsKey, uniforms, stats, index_);
     c_.orderShaders();
     c_.dispatch(c_.find(surfaceShellKey(false)), c_.pipelines.surfaceLayout(), nullptr, groups(x),
                 groups(z), stats, index_);
@@ -144,10 +144,8 @@ class SurfaceRecorder {
     use(light, uniforms, which);
     clear(resources().surfaceCover, coverBytes(VkDeviceSize{light.size} * light.size, false));
     clear(resources().surfaceFaces, sizeof(SurfaceFaces) * light.size * light.size);
-    orderClears();
-    triangles(surfaceCoverKey(false), uniforms, stats, index_);
-    c_.orderShaders();
-    triangles(surfaceFacesKey(), uniforms, stats, index_);
+    triangles([](bool large) { return surfaceCoverKey(false, large); }, uniforms, stats, index_);
+    triangles(surfaceFacesKey, uniforms, stats, index_);
     recordLevels(light.size, stats);
     copyLevels(light.columns, light.size, 0);
     copyLevels(light.faces, light.size, surfaceMapTexels(light.size));
@@ -218,15 +216,17 @@ class SurfaceRecorder {
     if (pixels > 0) {
       const bool ends = raysEnd(c_, targets_);
       clear(resources().surfaceCover, coverBytes(pixels, ends));
-      orderClears();
       if (ends) {
+        orderClears();
         c_.dispatch(c_.find(surfaceEndsKey(static_cast<bool>(targets_.depth))),
                     c_.pipelines.surfaceLayout(), nullptr,
                     groups(planned_.rect.x1 - planned_.rect.x0),
                     groups(planned_.rect.y1 - planned_.rect.y0), stats, index_ + 1);
-        c_.orderShaders();
       }
-      triangles(surfaceCoverKey(ends), uniforms, stats, index_ + 1);
+      triangles(
+          ends ? [](bool large) { return surfaceCoverKey(true, large); }
+               : [](bool large) { return surfaceCoverKey(false, large); },
+          uniforms, stats, index_ + 1);
     }
     emptyLists();
     SliceConstants push{};
@@ -277,20 +277,30 @@ class SurfaceRecorder {
       head[size_t{4} * list] = across;
       head[size_t{4} * list + 2] = 1;
     }
+    writeList(head);
+  }
+
+  // The list's first words. What was recorded before is done, and seen by what comes after.
+  void writeList(std::span<const uint32_t> words) {
     c_.barrier({COMPUTE | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
                 SHADER_ACCESS | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT},
                {VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT});
-    c_.vk.CmdUpdateBuffer(c_.commands, resources().surfaceList.handle(), 0, sizeof head,
-                          head.data());
+    c_.vk.CmdUpdateBuffer(c_.commands, resources().surfaceList.handle(), 0, words.size_bytes(),
+                          words.data());
     c_.barrier({COMPUTE | VK_PIPELINE_STAGE_2_TRANSFER_BIT,
                 SHADER_ACCESS | VK_ACCESS_2_TRANSFER_WRITE_BIT},
                {COMPUTE, SHADER_ACCESS});
   }
 
-  void triangles(const vk::PipelineKey& key, const SurfaceUniforms& uniforms, WlkPassStats& stats,
-                 uint32_t index) {
-    const auto [x, y, z] = surfaceGroups(uniforms);
-    c_.dispatch(c_.find(key), c_.pipelines.surfaceLayout(), nullptr, x, y, stats, index, z);
+  // The mesh's triangles, then those that it finds to be large, after all that was recorded before.
+  void triangles(vk::PipelineKey (*key)(bool large), const SurfaceUniforms& uniforms,
+                 WlkPassStats& stats, uint32_t index) {
+    const auto [x, y, strips] = surfaceGroups(uniforms);
+    const std::array<uint32_t, interface_::SURFACE_LARGE_HEAD> none{0, 1, strips, 0};
+    writeList(none);
+    c_.dispatch(c_.find(key(false)), c_.pipelines.surfaceLayout(), nullptr, x, y, stats, index);
+    orderLists();
+    c_.dispatchIndirect(c_.find(key(true)), resources().surfaceList.handle(), 0, stats, index);
   }
 
   // What readers before it have to have finished, too.
@@ -314,7 +324,9 @@ class SurfaceRecorder {
     const VkDeviceSize frame = c_.in.slot * r.slotStride;
     const VkDeviceSize at =
         frame + r.surfaceOffset + (SURFACE_PICTURES * rank_ + which) * r.surfaceStride;
-    std::memcpy(static_cast<char*>(r.uniforms.data()) + at, &uniforms, sizeof uniforms);
+    SurfaceUniforms written = uniforms;
+    written.triangle.w = largeRoom(r.surfaceList.size());
+    std::memcpy(static_cast<char*>(r.uniforms.data()) + at, &written, sizeof written);
     b.buffer(set, vk::BIND_SURFACE_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(),
              frame, sizeof(FrameUniforms));
     b.buffer(set, vk::BIND_SURFACE_UNIFORMS, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(),
@@ -393,17 +405,22 @@ void findSurfacePipelines(const FrameCommands& commands, const ViewTargets& targ
     return;
   }
   const RecordSurface& surface = commands.in.surfaces[planned.index];
-  if (planned.lit || planned.ambient) {
-    commands.find(surfaceCoverKey(false));
-    commands.find(surfaceFacesKey());
+  const bool lit = planned.lit || planned.ambient;
+  for (const bool large : {false, true}) {
+    commands.find(surfaceCoverKey(raysEnd(commands, targets), large));
+    if (lit) {
+      commands.find(surfaceCoverKey(false, large));
+      commands.find(surfaceFacesKey(large));
+      commands.find(surfaceCellsKey(large));
+    }
+  }
+  if (lit) {
     commands.find(surfaceMapKey(false, isDetailed(*surface.state)));
     commands.find(surfaceMapKey(true, false));
-    commands.find(surfaceCellsKey());
     commands.find(surfaceShellKey(false));
     commands.find(surfaceShellKey(true));
   }
   commands.find(surfaceEndsKey(static_cast<bool>(targets.depth)));
-  commands.find(surfaceCoverKey(raysEnd(commands, targets)));
   commands.find(listKeyOf(commands, targets));
   if (planned.lit) {
     commands.find(surfaceScatterKey(commands.quality.halfVolumes));
@@ -417,76 +434,6 @@ void findSurfacePipelines(const FrameCommands& commands, const ViewTargets& targ
 void recordSurface(FrameCommands& commands, const ViewTargets& targets,
                    const PlannedVolume& planned, bool first) {
   SurfaceRecorder(commands, targets, planned).run(first);
-}
-
-// shaders/interface/surface.glsl.
-static VkDeviceSize surfaceListBytes(const WlkViewInfo& info, const SliceQuality& quality) {
-  const VkDeviceSize pixels = VkDeviceSize{info.width} * info.height;
-  return sizeof(uint32_t) *
-         (interface_::SURFACE_LIST_HEAD + pixels * (quality.halfVolumes ? 2 : 1));
-}
-
-void makeSurfaces(vk::Device& device, const WlkViewInfo& info, const SliceQuality& quality,
-                  uint32_t surfaces, ViewResources& r) {
-  r.surfaceCapacity = surfaces;
-  if (surfaces == 0) {
-    return;
-  }
-  const uint32_t size = surfaceMapSize(quality);
-  const VkDeviceSize texels = VkDeviceSize{size} * size;
-  const VkDeviceSize pixels = std::max(VkDeviceSize{info.width} * info.height, texels);
-  const VkDeviceSize bytes = vk::wholeRows(coverBytes(pixels, true));
-  if (bytes > device.properties().limits.maxStorageBufferRange) {
-    fail(WLK_ERROR_LIMIT_EXCEEDED, WLK_STRUCT_VIEW_INFO, "width",
-         "%u x %u pixels with cloud surfaces exceed the device's storage buffers", info.width,
-         info.height);
-  }
-  constexpr VkBufferUsageFlags CLEARED =
-      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-  r.surfaceCover = vk::Buffer(device, bytes, vk::ROWS | CLEARED, false);
-  r.surfaceList = vk::Buffer(device, surfaceListBytes(info, quality),
-                             CLEARED | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, false);
-  vk::ImageInfo seconds;
-  seconds.format = VK_FORMAT_R32G32B32A32_SFLOAT;
-  seconds.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
-  seconds.extent = {1, 1, 1};
-  if (quality.halfVolumes) {
-    seconds.extent = {info.width / 2 + 1, info.height / 2 + 1, 1};
-  }
-  r.surfaceSeconds = vk::Image(device, seconds);
-  r.surfaceFaces = vk::Buffer(device, texels * sizeof(SurfaceFaces), CLEARED, false);
-  r.surfaceLevels =
-      vk::Buffer(device, VkDeviceSize{32} * surfaceMapTexels(size),
-                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, false);
-}
-
-VkDeviceSize uploadSurface(const vk::Device& device, VkCommandBuffer commands,
-                           SurfaceState& surface) {
-  const vk::Dispatch& vk = device.vk();
-  VkDeviceSize bytes = 0;
-  const auto copy = [&](const vk::Buffer& from, vk::Image& to) {
-    if (!from) {
-      return;
-    }
-    const WlkVulkanImageState target{VK_IMAGE_LAYOUT_GENERAL, 0, VK_PIPELINE_STAGE_2_TRANSFER_BIT,
-                                     VK_ACCESS_2_TRANSFER_WRITE_BIT};
-    WlkVulkanImageState before = GENERAL_STATE;
-    before.layout = to.layout;
-    VkBufferImageCopy region{};
-    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    region.imageExtent = to.info().extent;
-    imageBarrier(vk, commands, to.handle(), WHOLE_IMAGE, before, target);
-    vk.CmdCopyBufferToImage(commands, from.handle(), to.handle(), target.layout, 1, &region);
-    imageBarrier(vk, commands, to.handle(), WHOLE_IMAGE, target, GENERAL_STATE);
-    to.layout = VK_IMAGE_LAYOUT_GENERAL;
-    bytes += from.size();
-  };
-  copy(surface.newVertices, surface.vertices);
-  copy(surface.newCorners, surface.corners);
-  surface.low = surface.newLow;
-  surface.high = surface.newHigh;
-  ++surface.version;
-  return bytes;
 }
 
 }  // namespace welkin

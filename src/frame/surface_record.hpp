@@ -15,19 +15,11 @@ void findSurfacePipelines(const FrameCommands& commands, const ViewTargets& targ
 void recordSurface(FrameCommands& commands, const ViewTargets& targets,
                    const PlannedVolume& planned, bool first);
 
-// Of a surface in a frame, at most: 3 of the shell, 7 of each of two light maps, 9 of what the eye
+// Of a surface in a frame, at most: 4 of the shell, 9 of each of two light maps, 10 of what the eye
 // sees.
-constexpr uint32_t SURFACE_DISPATCHES = 26;
+constexpr uint32_t SURFACE_DISPATCHES = 32;
 // Pictures of a surface that have constants of their own: along the light, along the vertical, the
 // view's, and that of the cells of its detail.
 constexpr uint32_t SURFACE_PICTURES = 4;
-
-// Copies a waiting mesh; returns how many bytes.
-VkDeviceSize uploadSurface(const vk::Device& device, VkCommandBuffer commands,
-                           SurfaceState& surface);
-
-// Buffers that all surfaces of a view use in turn.
-void makeSurfaces(vk::Device& device, const WlkViewInfo& info, const SliceQuality& quality,
-                  uint32_t surfaces, ViewResources& resources);
 
 }  // namespace welkin

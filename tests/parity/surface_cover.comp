@@ -26,6 +26,10 @@ uvec3 surfaceCorners(uint triangle) {
 }
 
 void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing, uint triangle);
+// Told that there is room, main takes large triangles by themselves.
+bool surfaceLater(SurfaceUniforms s, uint triangle) {
+  return s.triangle.w != 0u;
+}
 #include "pass/surface_cover.glsl"
 #include "pass/surface_cross.glsl"
 
@@ -38,9 +42,18 @@ void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing cross
             crossing.facing > 0.0f ? 0xffffffffu : 1u);
 }
 
-// Groups along x only: strips follow each other.
+// Groups along x only: of triangles, then strip by strip of each.
 void main() {
   uint groups = (uniforms.triangle.x + SURFACE_LANES - 1u) / SURFACE_LANES;
-  uvec3 group = uvec3(gl_WorkGroupID.x % groups, 0u, gl_WorkGroupID.x / groups);
-  coverTriangles(uniforms, group, gl_LocalInvocationIndex);
+  uint lane = gl_LocalInvocationIndex;
+  if (gl_WorkGroupID.x < groups) {
+    coverTriangles(uniforms, uvec2(gl_WorkGroupID.x, 0u), lane);
+  } else {
+    uint number = gl_WorkGroupID.x - groups;
+    uint triangle = number % uniforms.triangle.x;
+    SurfaceTriangle t = surfaceTriangle(uniforms, uniforms.rect.yw, triangle);
+    if (surfaceBoxSize(t.box) > SURFACE_MIDDLE) {
+      coverLarge(uniforms, triangle, number / uniforms.triangle.x, lane);
+    }
+  }
 }

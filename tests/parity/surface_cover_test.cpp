@@ -108,11 +108,12 @@ SurfaceCover coverOf(const std::array<uint32_t, SURFACE_COVER_WORDS>& row) {
   return cover;
 }
 
+// `large`: triangles of many pixels by themselves, in strips.
 std::vector<Covered> onDevice(support::ComputeRunner& runner, const ClosedMesh& mesh,
-                              SurfaceUniforms u) {
+                              SurfaceUniforms u, bool large = true) {
   const auto triangles = static_cast<uint32_t>(mesh.triangle.size());
   constexpr uint32_t STRIPS = 3;
-  u.triangle = {triangles, (HEIGHT + STRIPS - 1) / STRIPS, 0, 0};
+  u.triangle = {triangles, (HEIGHT + STRIPS - 1) / STRIPS, 0, large ? 1 : 0};
   std::vector<float> input(sizeof u / sizeof(float));
   std::memcpy(input.data(), &u, sizeof u);
   for (const glm::dvec3& p : mesh.position) {
@@ -124,10 +125,10 @@ std::vector<Covered> onDevice(support::ComputeRunner& runner, const ClosedMesh& 
       input.push_back(std::bit_cast<float>(index));
     }
   }
-  const std::vector<float> output =
-      runner.run(surface_cover_spv, static_cast<int>(mesh.position.size()), input,
-                 size_t{WIDTH} * HEIGHT * (SURFACE_COVER_WORDS + 1),
-                 STRIPS * ((triangles + SURFACE_LANES - 1) / SURFACE_LANES));
+  const std::vector<float> output = runner.run(
+      surface_cover_spv, static_cast<int>(mesh.position.size()), input,
+      size_t{WIDTH} * HEIGHT * (SURFACE_COVER_WORDS + 1),
+      (triangles + SURFACE_LANES - 1) / SURFACE_LANES + (large ? STRIPS * triangles : 0));
   std::vector<Covered> cover(size_t{WIDTH} * HEIGHT);
   for (size_t i = 0; i < cover.size(); ++i) {
     std::array<uint32_t, SURFACE_COVER_WORDS> row{};
@@ -177,6 +178,22 @@ TEST(SurfaceCover, DeviceCoversAsTheModelTextSays) {
   }
   for (const std::string& message : runner.messages()) {
     ADD_FAILURE() << message;
+  }
+}
+
+// Whether large triangles have workgroups of their own is all one.
+TEST(SurfaceCover, LargeTrianglesAreTheSameByThemselves) {
+  support::ComputeRunner runner;
+  for (const ClosedMesh& mesh :
+       {support::boxMesh(), support::sphereMesh(1), support::needleMesh(12)}) {
+    for (const float eye : {-3.0f, -1.5f, 0.3f}) {
+      const SurfaceUniforms u = uniformsOf(false, eye);
+      const std::vector<Covered> together = onDevice(runner, mesh, u, false);
+      const std::vector<Covered> apart = onDevice(runner, mesh, u, true);
+      ASSERT_EQ(std::memcmp(together.data(), apart.data(), apart.size() * sizeof(Covered)), 0);
+      ASSERT_TRUE(std::any_of(apart.begin(), apart.end(),
+                              [](const Covered& pixel) { return pixel.cover.back > 0; }));
+    }
   }
 }
 

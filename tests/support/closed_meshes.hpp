@@ -64,6 +64,22 @@ inline ClosedMesh torusMesh(uint32_t around = 24, uint32_t across = 12) {
   return mesh;
 }
 
+// Two pyramids over a polygon of so many sides, with tips at z = 1 and -1: needles, all of which
+// meet at the tips.
+inline ClosedMesh needleMesh(uint32_t sides) {
+  ClosedMesh mesh;
+  mesh.position = {{0, 0, 1}, {0, 0, -1}};
+  for (uint32_t i = 0; i < sides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / sides;
+    mesh.position.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+    const uint32_t here = 2 + i;
+    const uint32_t next = 2 + (i + 1) % sides;
+    mesh.triangle.push_back({0, here, next});
+    mesh.triangle.push_back({1, next, here});
+  }
+  return mesh;
+}
+
 inline ClosedMesh boxMesh() {
   ClosedMesh mesh;
   for (uint32_t i = 0; i < 8; ++i) {
