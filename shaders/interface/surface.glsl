@@ -50,9 +50,9 @@ struct SurfaceCover {
   uint back;   // farthest at which one leaves; 0 where it never does
   int chord;   // depths of leaving less those of entering
 };
-// As it is counted, zero before: front, leave, of those of leaving but the nearest the farthest, and
-// the chord without the nearest of either. Behind the words of all pixels of the picture's rectangle
-// each has one more: ~ the depth at which rays end; 0 where they never do.
+// As it is counted, zero before: front, leave, of those of leaving but the nearest the farthest,
+// and the chord without the nearest of either. Behind the words of all pixels of the picture's
+// rectangle each has one more: ~ the depth at which rays end; 0 where they never do.
 //
 // What the shading leaves in their place for light scattered more than once: what detail takes of
 // the metres between a point on the pixel's ray and the light, green and blue of what that point's

@@ -49,25 +49,29 @@ vec4 surfaceBeyond(vec4 box, vec3 from, vec3 to) {
               mix(box.zw, vec2(SURFACE_FAR), greaterThanEqual(a - b, -slack)));
 }
 
+// Pixels that are seen of a corner and of the edges from it to the others; `near`: depths from
+// which on they are before the eye.
+vec4 surfaceCorner(vec4 box, float near, vec3 from, vec3 next, vec3 last) {
+  if (from.z > near) {
+    vec2 p = from.xy / from.z;
+    box = vec4(min(box.xy, p), max(box.zw, p));
+    box = next.z > near ? box : surfaceBeyond(box, from, next);
+    box = last.z > near ? box : surfaceBeyond(box, from, last);
+  }
+  return box;
+}
+
 // Pixels of the strip y0, y1 that the triangle may cover, x0, y0, x1, y1.
 ivec4 surfaceBox(SurfaceUniforms s, ivec2 strip, vec3 a, vec3 b, vec3 c) {
   float most = max(max(a.z, b.z), c.z);
   if (!(most > 0.0f)) {
     return ivec4(0);
   }
-  vec3 corner[3] = vec3[3](a, b, c);
+  float near = SURFACE_NEAR * most;
   vec4 box = vec4(vec2(SURFACE_FAR), vec2(-SURFACE_FAR));
-  for (int i = 0; i < 3; ++i) {
-    vec3 from = corner[i];
-    vec3 next = corner[(i + 1) % 3];
-    vec3 last = corner[(i + 2) % 3];
-    if (from.z > SURFACE_NEAR * most) {
-      vec2 p = from.xy / from.z;
-      box = vec4(min(box.xy, p), max(box.zw, p));
-      box = next.z > SURFACE_NEAR * most ? box : surfaceBeyond(box, from, next);
-      box = last.z > SURFACE_NEAR * most ? box : surfaceBeyond(box, from, last);
-    }
-  }
+  box = surfaceCorner(box, near, a, b, c);
+  box = surfaceCorner(box, near, b, c, a);
+  box = surfaceCorner(box, near, c, a, b);
   // Clamped as floats: integers of what is far outside are undefined.
   vec4 rect = vec4(float(s.rect.x), float(strip.x), float(s.rect.z), float(strip.y));
   vec2 low = clamp(ceil(box.xy - SURFACE_MARGIN), rect.xy, rect.zw);

@@ -152,7 +152,7 @@ TEST_F(SurfaceDetailImage, FramesRepeatAndKeepTheCells) {
   scene.setSun(40, 61);
   EXPECT_FALSE(scene.render() == first);
   const uint32_t light = surfaceLightPass(scene).commands;
-  EXPECT_EQ(all, light + 3);  // the cells stay
+  EXPECT_EQ(all, light + 4);  // the cells stay
   scene.setSun(40, 60);
   EXPECT_TRUE(scene.render() == first);
   scene.setQuality(WLK_QUALITY_LOW, WLK_QUALITY_FLAG_NO_SKIP);

@@ -221,17 +221,19 @@ TEST(SurfaceCover, FarFromTheFirstPixelNoCrossingIsLost) {
   }
 }
 
-// The eye in the middle: triangles before, behind and around it.
+// The eye inside, also close to a wall before or behind it: triangles before, behind and around it.
 TEST(SurfaceCover, FromInsideEveryPixelLeavesOnce) {
   support::ComputeRunner runner;
   for (const ClosedMesh& mesh : {support::boxMesh(), support::sphereMesh(3)}) {
-    const SurfaceUniforms u = uniformsOf(false, 0.3f);
-    const std::vector<Covered> expected = onCpu(mesh, u);
-    const std::vector<Covered> found = onDevice(runner, mesh, u);
-    for (size_t i = 0; i < found.size(); ++i) {
-      ASSERT_EQ(found[i].passed, 1u) << i;
-      ASSERT_EQ(found[i].cover.front, 0u) << i;
-      ASSERT_NEAR(found[i].cover.chord, expected[i].cover.chord, 64) << i;
+    for (const float eye : {0.3f, -0.98f, 0.97f}) {
+      const SurfaceUniforms u = uniformsOf(false, eye);
+      const std::vector<Covered> expected = onCpu(mesh, u);
+      const std::vector<Covered> found = onDevice(runner, mesh, u);
+      for (size_t i = 0; i < found.size(); ++i) {
+        ASSERT_EQ(found[i].passed, 1u) << i << ' ' << eye;
+        ASSERT_EQ(found[i].cover.front, 0u) << i;
+        ASSERT_NEAR(found[i].cover.chord, expected[i].cover.chord, 64) << i;
+      }
     }
   }
 }
