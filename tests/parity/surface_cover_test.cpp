@@ -139,6 +139,19 @@ std::vector<Covered> onDevice(support::ComputeRunner& runner, const ClosedMesh& 
   return cover;
 }
 
+// Seen from its side, so that rays enter twice; and with the last triangle first.
+ClosedMesh aside(ClosedMesh mesh) {
+  for (glm::dvec3& p : mesh.position) {
+    p = {p.z, p.x, p.y};
+  }
+  return mesh;
+}
+
+ClosedMesh backwards(ClosedMesh mesh) {
+  std::reverse(mesh.triangle.begin(), mesh.triangle.end());
+  return mesh;
+}
+
 TEST(SurfaceCover, DeviceCoversAsTheModelTextSays) {
   // Depths up to 5 of 8 roundings, in steps of 8 / 2^24; near an edge seen at a slant of up to
   // 1:300 (53 degrees, a vertex on the sphere) places differ by as much more.
@@ -150,7 +163,8 @@ TEST(SurfaceCover, DeviceCoversAsTheModelTextSays) {
     int net;
   };
   for (const ClosedMesh& mesh :
-       {support::boxMesh(), support::sphereMesh(3), support::torusMesh()}) {
+       {support::boxMesh(), support::sphereMesh(3), support::torusMesh(),
+        aside(support::torusMesh()), backwards(aside(support::torusMesh()))}) {
     for (const Case& c : {Case{true, 0, 0}, Case{false, -3, 0}, Case{false, -1.5f, 0}}) {
       const SurfaceUniforms u = uniformsOf(c.parallel, c.eye);
       const std::vector<Covered> expected = onCpu(mesh, u);
@@ -172,7 +186,7 @@ TEST(SurfaceCover, DeviceCoversAsTheModelTextSays) {
                       static_cast<double>(~expected[i].cover.front), STEPS);
         }
       }
-      EXPECT_GT(covered, WIDTH * HEIGHT / 8);
+      EXPECT_GT(covered, WIDTH * HEIGHT / 10);
       EXPECT_LE(moved, 2);
     }
   }
