@@ -102,10 +102,11 @@ class Cores {
   double patience_ms_ = PATIENCE_ms;
 };
 
-std::vector<double> ratios(const std::vector<Sample>& samples, const std::vector<Sample>& anchor) {
+std::vector<double> ratios(const std::vector<Sample>& samples, const std::vector<Sample>& anchor,
+                           double Sample::*time) {
   std::vector<double> result;
   for (size_t i = 0; i < samples.size(); ++i) {
-    result.push_back(samples[i].wall / anchor[i].wall);
+    result.push_back(samples[i].*time / (anchor[i].*time));
   }
   std::sort(result.begin(), result.end());
   return result;
@@ -187,8 +188,9 @@ Timing summarise(const std::vector<Sample>& samples, const std::vector<Sample>& 
   timing.rounds = samples.size();
   timing.quietRounds = quietOf(samples).size();
   timing.cores = typical(best);
-  const std::vector<double> byRound = ratios(samples, anchor);
+  const std::vector<double> byRound = ratios(samples, anchor, &Sample::wall);
   timing.medianRatio = medianOf(byRound);
+  timing.medianCpuRatio = medianOf(ratios(samples, anchor, &Sample::cpu));
   // The count of samples below the median is binomial: n/2 +- 1.96 sqrt(n)/2.
   const auto n = static_cast<double>(byRound.size());
   const double rank = std::floor(0.5 * n - 0.98 * std::sqrt(n));

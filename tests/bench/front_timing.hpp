@@ -40,6 +40,8 @@ struct Timing {
   double medianRatio = 1.0;
   double medianRatioLow = 1.0;
   double medianRatioHigh = 1.0;
+  /// The same of CPU times.
+  double medianCpuRatio = 1.0;
   /// In all, and those with quiet cores before and after: all where nobody looked, as with one core
   /// or a driver on none.
   size_t rounds = 0;

@@ -3,7 +3,8 @@
 // docs/results/surface-detail.csv. Medians of interleaved rounds in ms, of those on quiet cores
 // where there are enough: CPU times of all threads, of a frame in which nothing changed and of one
 // in which the light moved; of the latter's passes the time that they took, of all frames; and
-// what the cores were like (cores.hpp).
+// what the cores were like (cores.hpp). Ratios are medians over the rounds, all of them: what
+// others do on a machine for seconds is in both frames of one.
 //
 // With --count, under `valgrind --tool=callgrind --instr-atstart=no --smc-check=all-non-file`: one
 // dump of instructions for each of these frames, named as they are; no CSV.
@@ -127,17 +128,21 @@ void measure(Worlds& worlds, const SurfaceView& view, const Job& job) {
     worlds[i].detail(i % 2 == 0 ? 0 : depth);
     frames.push_back({worlds[i], i >= 2});
   }
-  std::vector<Copies> methods;
-  for (Frames& kind : frames) {
-    methods.push_back({[&kind] { return kind.render(); }});
+  std::vector<Timing> times;
+  for (size_t i = 0; i < KINDS; i += 2) {
+    std::vector<Copies> methods;
+    for (Frames* kind : {&frames[i], &frames[i + 1]}) {
+      methods.push_back({[kind] { return kind->render(); }});
+    }
+    constexpr size_t WARM_UPS = 2;  // makes pipelines
+    const std::vector<Timing> both = interleave(methods, 0, WARM_UPS, job.rounds);
+    times.insert(times.end(), both.begin(), both.end());
   }
-  constexpr size_t WARM_UPS = 2;  // makes pipelines
-  const std::vector<Timing> times = interleave(methods, 0, WARM_UPS, job.rounds);
   std::printf("%s,%s,%zu,%u,%u,%g", job.noise.c_str(), view.name.c_str(), mesh.indices.size() / 3,
               static_cast<uint32_t>(view.width) * job.rays,
               static_cast<uint32_t>(view.height) * job.rays, job.part);
   for (size_t i = 0; i < KINDS; i += 2) {
-    std::printf(",%.0f,%.0f,%.2f", times[i].cpu, times[i + 1].cpu, times[i + 1].cpu / times[i].cpu);
+    std::printf(",%.0f,%.0f,%.2f", times[i].cpu, times[i + 1].cpu, times[i + 1].medianCpuRatio);
   }
   std::printf(",%.0f,%.0f,%.0f,%.0f", medianOf(frames[2].light), medianOf(frames[3].light),
               medianOf(frames[2].eye), medianOf(frames[3].eye));
