@@ -73,6 +73,7 @@ struct SurfaceFaces {
 const uint SURFACE_MESH_ROW = 4096u;
 const uint SURFACE_LANES = 64u;   // triangles of a workgroup
 const uint SURFACE_ROW = 32768u;  // workgroups along x
+const uint SURFACE_LARGE = 16384u;  // pixels from which on a triangle has its own workgroups
 const uint SURFACE_LARGE_HEAD = 4u;  // words before the list of large triangles
 const uint SURFACE_LARGE_MOST = 32768u;  // in that list
 const uint SURFACE_CELL = 4u;     // pixels along an edge that one lane lists

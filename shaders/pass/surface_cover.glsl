@@ -6,7 +6,7 @@
 //
 // Before: `surfaceVertex(i)` a mesh position, `surfaceCorners(triangle)`,
 // `surfaceCross(uniforms, pixel, index in the buffer, crossing, triangle)`, and
-// `surfaceLater(uniforms, triangle)`: whether coverLarge will be called for it.
+// `surfaceLater(uniforms, triangle, pixels of its box)`: whether coverLarge will be called for it.
 
 // Beside the exact box of a triangle, in pixels, for the rounding of its corners: in pictures of
 // 16384 they are known to 4e-3 (2.5 units in the last place of a division, and those of what is
@@ -146,7 +146,7 @@ void coverTriangles(SurfaceUniforms s, uvec2 group, uint lane) {
       coverBox(s, t, triangle, 0u, 1u);
     } else if (pixels <= SURFACE_MIDDLE) {
       surfaceMiddle[atomicAdd(surfaceMiddleCount, 1u)] = triangle;
-    } else if (!surfaceLater(s, triangle)) {
+    } else if (!surfaceLater(s, triangle, pixels)) {
       surfaceLarge[atomicAdd(surfaceLargeCount, 1u)] = triangle;
     }
   }

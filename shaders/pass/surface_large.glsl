@@ -6,7 +6,11 @@ layout(constant_id = 6) const bool LARGE = false;
 // many triangles asked for one, and which they are.
 layout(set = 0, binding = 26, std430) buffer Large { uint large[]; };
 
-bool surfaceLater(SurfaceUniforms s, uint triangle) {
+// A strip has its price, whether the box reaches it or not: only where many pixels are saved.
+bool surfaceLater(SurfaceUniforms s, uint triangle, uint pixels) {
+  if (pixels <= SURFACE_LARGE) {
+    return false;
+  }
   uint number = atomicAdd(large[3], 1u);
   bool room = number < s.triangle.w;
   if (room) {

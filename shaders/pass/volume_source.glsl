@@ -37,7 +37,7 @@ vec3 fieldSource(uint field, float depth, float angle, vec3 box) {
   return exp(logFieldSource(field, depth, angle, box));
 }
 
-#define PAIR_SHAPE volume.pairShape
+#define PAIR_SHAPE volumeBlock.pairShape
 #include "pair_shape.glsl"
 
 // Copies, see common.glsl.

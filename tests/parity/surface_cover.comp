@@ -27,7 +27,7 @@ uvec3 surfaceCorners(uint triangle) {
 
 void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing, uint triangle);
 // Told that there is room, main takes large triangles by themselves.
-bool surfaceLater(SurfaceUniforms s, uint triangle) {
+bool surfaceLater(SurfaceUniforms s, uint triangle, uint pixels) {
   return s.triangle.w != 0u;
 }
 #include "pass/surface_cover.glsl"
