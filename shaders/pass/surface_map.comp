@@ -2,8 +2,8 @@
 // Texels of a surface's light map from what its triangles cover, and the levels of means above.
 // Texels of the levels follow each other, coarser ones last; copies make images of them.
 //
-// An invocation has what it takes the means of at hand: sharing it with others, or levels that few
-// of them have a part in, costs drivers such as lavapipe a third of the pass.
+// An invocation has what it takes the means of at hand: drivers such as lavapipe take all lanes
+// through what few have a part in, and pay for what they share.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
@@ -26,7 +26,7 @@ struct MapTexel {
   vec4 face;    // z of that; x and y of the shaded face's; depth of the lit face, m
 };
 
-// The mesh in the light's frame, read before loops: such drivers do not take a uniform out of one.
+// Rows from the mesh to the light's frame, m.
 struct MapFrame {
   vec4 x;
   vec4 y;
