@@ -5,8 +5,8 @@
 // Most passes copy their uniforms into globals, `frame` from `frameBlock`, which are filled where
 // main begins: behind a branch, and so behind an early return, and in a loop lavapipe gathers each
 // word for every lane, which took a tenth of a frame of cloud surfaces. What is asked for by an
-// index that varies is read from the block, as compilers may keep a copy of that in memory; but for
-// short loops over fields, which they unroll. So are the many lists of transport.glsl, ambient.glsl.
+// index that varies is read from the block, as compilers may keep a copy of that in memory, but
+// for short loops over fields, which they unroll.
 #define real float
 // 0: none; 2: with a gas that absorbs.
 layout(constant_id = 0) const uint AIR_KIND = 2u;
