@@ -10,9 +10,7 @@ struct SurfaceUniforms {
   vec4 steps;      // x: depth of step 0; y: steps per m; z: most; w: depths from here count
   ivec4 rect;      // pixels x0, y0, x1, y1 that the surface may cover
   ivec4 shade;     // those that the view's pass runs over
-  // x: how many; y: rows of pixels in a strip of large ones; z: 1 if the picture is mirrored; w: so
-  // many large ones have workgroups of their own.
-  uvec4 triangle;
+  uvec4 triangle;  // x: how many; y: 1 if the picture is mirrored
   vec4 axis;       // of the view
   // Light map: texel u, v and depth in m of a position, as dot((position, 1), row).
   vec4 lightX;
@@ -76,6 +74,11 @@ const uint SURFACE_ROW = 32768u;  // workgroups along x
 const uint SURFACE_LARGE = 16384u;  // pixels from which on a triangle has its own workgroups
 const uint SURFACE_LARGE_HEAD = 4u;  // words before the list of large triangles
 const uint SURFACE_LARGE_MOST = 32768u;  // in that list
+// One of its workgroups has up to 2^15 pixels; more if there were more than 2^4 of them, but not over
+// 2^21, half of what lavapipe would end.
+const int SURFACE_STRIP = 15;
+const int SURFACE_STRIPS = 4;
+const int SURFACE_STRIP_MOST = 21;
 const uint SURFACE_CELL = 4u;     // pixels along an edge that one lane lists
 // The buffer of a view's lists, in uints: for each list the groups of its dispatch along three
 // axes, the first of which serves any length, and how many pixels it has. Then as many pixels, x +

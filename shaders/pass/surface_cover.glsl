@@ -6,7 +6,7 @@
 //
 // Before: `surfaceVertex(i)` a mesh position, `surfaceCorners(triangle)`,
 // `surfaceCross(uniforms, pixel, index in the buffer, crossing, triangle)`, and
-// `surfaceLater(uniforms, triangle, pixels of its box)`: whether coverLarge will be called for it.
+// `surfaceLater(triangle, pixels of its box, strips)`: whether coverLarge will be called for it.
 
 // Beside the exact box of a triangle, in pixels, for the rounding of its corners: in pictures of
 // 16384 they are known to 4e-3 (2.5 units in the last place of a division, and those of what is
@@ -61,8 +61,8 @@ vec4 surfaceCorner(vec4 box, float near, vec3 from, vec3 next, vec3 last) {
   return box;
 }
 
-// Pixels of the strip y0, y1 that the triangle may cover, x0, y0, x1, y1.
-ivec4 surfaceBox(SurfaceUniforms s, ivec2 strip, vec3 a, vec3 b, vec3 c) {
+// Pixels of the picture that the triangle may cover, x0, y0, x1, y1.
+ivec4 surfaceBox(SurfaceUniforms s, vec3 a, vec3 b, vec3 c) {
   float most = max(max(a.z, b.z), c.z);
   if (!(most > 0.0f)) {
     return ivec4(0);
@@ -73,13 +73,13 @@ ivec4 surfaceBox(SurfaceUniforms s, ivec2 strip, vec3 a, vec3 b, vec3 c) {
   box = surfaceCorner(box, near, b, c, a);
   box = surfaceCorner(box, near, c, a, b);
   // Clamped as floats: integers of what is far outside are undefined.
-  vec4 rect = vec4(float(s.rect.x), float(strip.x), float(s.rect.z), float(strip.y));
+  vec4 rect = vec4(s.rect);
   vec2 low = clamp(ceil(box.xy - SURFACE_MARGIN), rect.xy, rect.zw);
   vec2 high = clamp(floor(box.zw + SURFACE_MARGIN) + 1.0f, rect.xy, rect.zw);
   return ivec4(ivec2(low), ivec2(high));
 }
 
-SurfaceTriangle surfaceTriangle(SurfaceUniforms s, ivec2 strip, uint triangle) {
+SurfaceTriangle surfaceTriangle(SurfaceUniforms s, uint triangle) {
   uvec3 at = surfaceCorners(triangle);
   vec3 p = surfaceVertex(at.x);
   vec3 q = surfaceVertex(at.y);
@@ -91,12 +91,26 @@ SurfaceTriangle surfaceTriangle(SurfaceUniforms s, ivec2 strip, uint triangle) {
   t.turned = bvec3(at.y > at.z, at.z > at.x, at.x > at.y);
   t.depths = vec3(dot(s.depth, vec4(p, 1.0f)), dot(s.depth, vec4(q, 1.0f)),
                   dot(s.depth, vec4(r, 1.0f)));
-  t.box = surfaceBox(s, strip, t.a, t.b, t.c);
+  t.box = surfaceBox(s, t.a, t.b, t.c);
   return t;
 }
 
 uint surfaceBoxSize(ivec4 box) {
   return uint(max(box.z - box.x, 0)) * uint(max(box.w - box.y, 0));
+}
+
+// Log2 of the rows of a large triangle's strips. All such triangles have as many strips as the one
+// with the most, so there are few. Shifts: lavapipe divides integers lane by lane.
+int surfaceStripRows(ivec4 box) {
+  int width = findMSB(max(box.z - box.x - 1, 0)) + 1;  // log2, up to the next whole number
+  int height = findMSB(max(box.w - box.y - 1, 0)) + 1;
+  int rows = max(SURFACE_STRIP - width, height - SURFACE_STRIPS);
+  return clamp(rows, 0, SURFACE_STRIP_MOST - width);
+}
+
+uint surfaceStrips(ivec4 box) {
+  int rows = surfaceStripRows(box);
+  return uint(max(box.w - box.y, 0) + (1 << rows) - 1) >> rows;
 }
 
 // The depth in steps.
@@ -117,7 +131,7 @@ void coverBox(SurfaceUniforms s, SurfaceTriangle t, uint triangle, uint first, u
     ivec2 pixel = t.box.xy + ivec2(int(x), int(y));
     SurfaceCrossing crossing = surfaceCrossing(t.a, t.b, t.c, t.turned, t.depths, vec2(pixel));
     if (crossing.facing != 0.0f && crossing.depth > s.steps.w) {
-      crossing.facing = s.triangle.z != 0u ? -crossing.facing : crossing.facing;
+      crossing.facing = s.triangle.y != 0u ? -crossing.facing : crossing.facing;
       uint at = uint(pixel.y - s.rect.y) * uint(s.rect.z - s.rect.x) + uint(pixel.x - s.rect.x);
       surfaceCross(s, pixel, at, crossing, triangle);
     }
@@ -140,13 +154,13 @@ void coverTriangles(SurfaceUniforms s, uvec2 group, uint lane) {
   barrier();
   uint triangle = (group.y * SURFACE_ROW + group.x) * SURFACE_LANES + lane;
   if (triangle < s.triangle.x) {
-    SurfaceTriangle t = surfaceTriangle(s, s.rect.yw, triangle);
+    SurfaceTriangle t = surfaceTriangle(s, triangle);
     uint pixels = surfaceBoxSize(t.box);
     if (pixels <= SURFACE_SMALL) {
       coverBox(s, t, triangle, 0u, 1u);
     } else if (pixels <= SURFACE_MIDDLE) {
       surfaceMiddle[atomicAdd(surfaceMiddleCount, 1u)] = triangle;
-    } else if (!surfaceLater(s, triangle, pixels)) {
+    } else if (!surfaceLater(triangle, pixels, surfaceStrips(t.box))) {
       surfaceLarge[atomicAdd(surfaceLargeCount, 1u)] = triangle;
     }
   }
@@ -154,19 +168,21 @@ void coverTriangles(SurfaceUniforms s, uvec2 group, uint lane) {
   barrier();
   uint middle = surfaceMiddleCount;
   for (uint i = lane / SURFACE_TEAM; i < middle; i += SURFACE_LANES / SURFACE_TEAM) {
-    SurfaceTriangle t = surfaceTriangle(s, s.rect.yw, surfaceMiddle[i]);
+    SurfaceTriangle t = surfaceTriangle(s, surfaceMiddle[i]);
     coverBox(s, t, surfaceMiddle[i], lane & (SURFACE_TEAM - 1u), SURFACE_TEAM);
   }
   uint large = surfaceLargeCount;
   for (uint i = 0u; i < large; ++i) {
-    SurfaceTriangle t = surfaceTriangle(s, s.rect.yw, surfaceLarge[i]);
+    SurfaceTriangle t = surfaceTriangle(s, surfaceLarge[i]);
     coverBox(s, t, surfaceLarge[i], lane, SURFACE_LANES);
   }
 }
 
 // A triangle of many pixels, in one strip of their rows.
 void coverLarge(SurfaceUniforms s, uint triangle, uint strip, uint lane) {
-  int first = s.rect.y + int(strip * s.triangle.y);
-  ivec2 rows = ivec2(first, min(first + int(s.triangle.y), s.rect.w));
-  coverBox(s, surfaceTriangle(s, rows, triangle), triangle, lane, SURFACE_LANES);
+  SurfaceTriangle t = surfaceTriangle(s, triangle);
+  int rows = surfaceStripRows(t.box);
+  t.box.y += int(strip) << rows;
+  t.box.w = min(t.box.y + (1 << rows), t.box.w);
+  coverBox(s, t, triangle, lane, SURFACE_LANES);
 }

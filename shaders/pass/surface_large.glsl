@@ -6,16 +6,16 @@ layout(constant_id = 6) const bool LARGE = false;
 // many triangles asked for one, and which they are.
 layout(set = 0, binding = 26, std430) buffer Large { uint large[]; };
 
-// A strip has its price, whether the box reaches it or not: only where many pixels are saved.
-bool surfaceLater(SurfaceUniforms s, uint triangle, uint pixels) {
+bool surfaceLater(uint triangle, uint pixels, uint strips) {
   if (pixels <= SURFACE_LARGE) {
     return false;
   }
   uint number = atomicAdd(large[3], 1u);
-  bool room = number < s.triangle.w;
+  bool room = number < SURFACE_LARGE_MOST;
   if (room) {
     large[SURFACE_LARGE_HEAD + number] = triangle;
     atomicMax(large[0], number + 1u);
+    atomicMax(large[2], strips);
   }
   return room;
 }

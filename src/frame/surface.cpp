@@ -17,8 +17,6 @@ using interface_::SurfaceUniforms;
 constexpr double STEPS = 1 << 20;
 // Texels of the light map on each side in which nothing of the mesh lies.
 constexpr double BORDER = 2;
-// Pixels of a large triangle's strip: 512 rounds of its workgroup.
-constexpr uint32_t STRIP_PIXELS = 32768;
 
 glm::vec4 rowOf(const glm::dvec4& row) {
   return glm::vec4(row);
@@ -122,8 +120,7 @@ glm::dmat4x3 SurfaceState::worldFromBox() const {
 }
 
 void fillTriangles(const SurfaceState& s, bool mirrored, SurfaceUniforms& out) {
-  const auto wide = static_cast<uint32_t>(std::max(out.rect.z - out.rect.x, 1));
-  out.triangle = {s.triangles, std::max(STRIP_PIXELS / wide, 1U), mirrored ? 1U : 0U, 0};
+  out.triangle = {s.triangles, mirrored ? 1U : 0U, 0, 0};
 }
 
 SurfaceTables makeSurfaceTables(vk::Device& device) {
@@ -308,13 +305,11 @@ void fillSurfaceView(const SurfaceState& s, const PlannedVolume& planned, const 
   }
 }
 
-std::array<uint32_t, 3> surfaceGroups(const SurfaceUniforms& uniforms) {
+std::array<uint32_t, 2> surfaceGroups(const SurfaceUniforms& uniforms) {
   const uint32_t all =
       (uniforms.triangle.x + interface_::SURFACE_LANES - 1) / interface_::SURFACE_LANES;
-  const uint32_t rows = static_cast<uint32_t>(std::max(uniforms.rect.w - uniforms.rect.y, 1));
   return {std::min(all, interface_::SURFACE_ROW),
-          (all + interface_::SURFACE_ROW - 1) / interface_::SURFACE_ROW,
-          (rows + uniforms.triangle.y - 1) / uniforms.triangle.y};
+          (all + interface_::SURFACE_ROW - 1) / interface_::SURFACE_ROW};
 }
 
 }  // namespace welkin

@@ -120,9 +120,8 @@ struct SurfaceEye {
 void fillSurfaceView(const SurfaceState& surface, const PlannedVolume& planned,
                      const SurfaceEye& view, const glm::dvec3& toLight, uint32_t size,
                      const PixelRect& shade, interface_::SurfaceUniforms& out);
-// Triangles, and rows of pixels in a strip of large ones.
 void fillTriangles(const SurfaceState& surface, bool mirrored, interface_::SurfaceUniforms& out);
-// Workgroups of the passes over triangles, x and y, and strips of a large one.
-std::array<uint32_t, 3> surfaceGroups(const interface_::SurfaceUniforms& uniforms);
+// Workgroups of the passes over triangles, x and y.
+std::array<uint32_t, 2> surfaceGroups(const interface_::SurfaceUniforms& uniforms);
 
 }  // namespace welkin

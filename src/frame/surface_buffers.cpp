@@ -15,11 +15,13 @@ VkDeviceSize coverBytes(VkDeviceSize pixels, bool further) {
   return pixels * (sizeof(interface_::SurfaceCover) + (further ? sizeof(uint32_t) : 0));
 }
 
-// shaders/interface/surface.glsl.
+// Of pixels, and before of large triangles: shaders/interface/surface.glsl.
 static VkDeviceSize surfaceListBytes(const WlkViewInfo& info, const SliceQuality& quality) {
   const VkDeviceSize pixels = VkDeviceSize{info.width} * info.height;
   return sizeof(uint32_t) *
-         (interface_::SURFACE_LIST_HEAD + pixels * (quality.halfVolumes ? 2 : 1));
+         std::max<VkDeviceSize>(
+             interface_::SURFACE_LIST_HEAD + pixels * (quality.halfVolumes ? 2 : 1),
+             interface_::SURFACE_LARGE_HEAD + interface_::SURFACE_LARGE_MOST);
 }
 
 void makeSurfaces(vk::Device& device, const WlkViewInfo& info, const SliceQuality& quality,

@@ -39,12 +39,6 @@ bool raysEnd(const FrameCommands& c, const ViewTargets& targets) {
   return static_cast<bool>(targets.depth) || c.view.plan.ground;
 }
 
-// Large triangles that a list of so many bytes has room for.
-uint32_t largeRoom(VkDeviceSize bytes) {
-  const VkDeviceSize room = bytes / sizeof(uint32_t) - interface_::SURFACE_LARGE_HEAD;
-  return static_cast<uint32_t>(std::min<VkDeviceSize>(room, interface_::SURFACE_LARGE_MOST));
-}
-
 class SurfaceRecorder {
  public:
   SurfaceRecorder(FrameCommands& commands, const ViewTargets& targets, const PlannedVolume& planned)
@@ -295,8 +289,8 @@ class SurfaceRecorder {
   // The mesh's triangles, then those that it finds to be large, after all that was recorded before.
   void triangles(vk::PipelineKey (*key)(bool large), const SurfaceUniforms& uniforms,
                  WlkPassStats& stats, uint32_t index) {
-    const auto [x, y, strips] = surfaceGroups(uniforms);
-    const std::array<uint32_t, interface_::SURFACE_LARGE_HEAD> none{0, 1, strips, 0};
+    const auto [x, y] = surfaceGroups(uniforms);
+    const std::array<uint32_t, interface_::SURFACE_LARGE_HEAD> none{0, 1, 0, 0};
     writeList(none);
     c_.dispatch(c_.find(key(false)), c_.pipelines.surfaceLayout(), nullptr, x, y, stats, index);
     orderLists();
@@ -324,9 +318,7 @@ class SurfaceRecorder {
     const VkDeviceSize frame = c_.in.slot * r.slotStride;
     const VkDeviceSize at =
         frame + r.surfaceOffset + (SURFACE_PICTURES * rank_ + which) * r.surfaceStride;
-    SurfaceUniforms written = uniforms;
-    written.triangle.w = largeRoom(r.surfaceList.size());
-    std::memcpy(static_cast<char*>(r.uniforms.data()) + at, &written, sizeof written);
+    std::memcpy(static_cast<char*>(r.uniforms.data()) + at, &uniforms, sizeof uniforms);
     b.buffer(set, vk::BIND_SURFACE_FRAME, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(),
              frame, sizeof(FrameUniforms));
     b.buffer(set, vk::BIND_SURFACE_UNIFORMS, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, r.uniforms.handle(),

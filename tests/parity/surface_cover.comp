@@ -27,8 +27,8 @@ uvec3 surfaceCorners(uint triangle) {
 
 void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing, uint triangle);
 // Told that there is room, main takes large triangles by themselves.
-bool surfaceLater(SurfaceUniforms s, uint triangle, uint pixels) {
-  return s.triangle.w != 0u;
+bool surfaceLater(uint triangle, uint pixels, uint strips) {
+  return uniforms.triangle.w != 0u;
 }
 #include "pass/surface_cover.glsl"
 #include "pass/surface_cross.glsl"
@@ -42,7 +42,7 @@ void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing cross
             crossing.facing > 0.0f ? 0xffffffffu : 1u);
 }
 
-// Groups along x only: of triangles, then strip by strip of each.
+// Groups along x only: of triangles, then strip by strip of each. The last word: strips but each one's first.
 void main() {
   uint groups = (uniforms.triangle.x + SURFACE_LANES - 1u) / SURFACE_LANES;
   uint lane = gl_LocalInvocationIndex;
@@ -51,9 +51,14 @@ void main() {
   } else {
     uint number = gl_WorkGroupID.x - groups;
     uint triangle = number % uniforms.triangle.x;
-    SurfaceTriangle t = surfaceTriangle(uniforms, uniforms.rect.yw, triangle);
-    if (surfaceBoxSize(t.box) > SURFACE_MIDDLE) {
-      coverLarge(uniforms, triangle, number / uniforms.triangle.x, lane);
+    uint strip = number / uniforms.triangle.x;
+    SurfaceTriangle t = surfaceTriangle(uniforms, triangle);
+    if (surfaceBoxSize(t.box) > SURFACE_MIDDLE && strip < surfaceStrips(t.box)) {
+      coverLarge(uniforms, triangle, strip, lane);
+      uvec2 size = uvec2(uniforms.rect.zw - uniforms.rect.xy);
+      if (lane == 0u && strip > 0u) {
+        atomicAdd(surfaceWords[size.x * size.y * (SURFACE_COVER_WORDS + 1u)], 1u);
+      }
     }
   }
 }
