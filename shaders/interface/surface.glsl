@@ -74,8 +74,8 @@ const uint SURFACE_ROW = 32768u;  // workgroups along x
 const uint SURFACE_LARGE = 16384u;  // pixels from which on a triangle has its own workgroups
 const uint SURFACE_LARGE_HEAD = 4u;  // words before the list of large triangles
 const uint SURFACE_LARGE_MOST = 32768u;  // in that list
-// One of its workgroups has up to 2^15 pixels; more if there were more than 2^4 of them, but not over
-// 2^21, half of what lavapipe would end.
+// One of its workgroups has up to 2^15 pixels; more if there were more than 2^4 of them, but not
+// over 2^21, half of what lavapipe would end.
 const int SURFACE_STRIP = 15;
 const int SURFACE_STRIPS = 4;
 const int SURFACE_STRIP_MOST = 21;

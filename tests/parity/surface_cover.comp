@@ -42,7 +42,8 @@ void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing cross
             crossing.facing > 0.0f ? 0xffffffffu : 1u);
 }
 
-// Groups along x only: of triangles, then strip by strip of each. The last word: strips but each one's first.
+// Groups along x only: of triangles, then strip by strip of each. The last word: strips but each
+// one's first.
 void main() {
   uint groups = (uniforms.triangle.x + SURFACE_LANES - 1u) / SURFACE_LANES;
   uint lane = gl_LocalInvocationIndex;
