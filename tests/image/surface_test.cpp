@@ -20,6 +20,15 @@ SceneOptions separate() {
   return options;
 }
 
+// Of many pixels or triangles.
+SceneOptions quick(uint32_t width, uint32_t height) {
+  SceneOptions options = separate();
+  options.width = width;
+  options.height = height;
+  options.validation = false;
+  return options;
+}
+
 class SurfaceImage : public ::testing::Test {
  protected:
   ~SurfaceImage() override {
@@ -107,68 +116,46 @@ TEST_F(SurfaceImage, EndsAtOpaqueSurfaces) {
   EXPECT_GT(expectChords({0, 2, 0}, &targets, WALL), 30);
 }
 
+// Pixels of a picture from between the tips of a body of needles, so wide that nowhere in view is
+// it less than nine tenths as thick as between them, in which it is thinner.
+int thinPixels(const support::ClosedMesh& needles, const HeadlessScene& scene, double wide) {
+  constexpr double HEIGHT = 500;
+  addSurface(scene, needles, scene.addHenyeyGreenstein(0), EXTINCTION, {wide, wide, HEIGHT},
+             {0, 0, -3000});
+  scene.setCamera({0, 0, 0}, 0, 0);
+  scene.render();
+  const Image image = scene.read(WLK_IMAGE_TRANSMITTANCE);
+  int thin = 0;
+  for (uint32_t y = 0; y < image.height; ++y) {
+    for (uint32_t x = 0; x < image.width; ++x) {
+      thin += image.at(x, y)[0] > std::exp(-0.9 * 2 * HEIGHT * EXTINCTION) ? 1 : 0;
+    }
+  }
+  return thin;
+}
+
 // Triangles that are thin but whose boxes are a quarter of the picture: drivers such as lavapipe
 // end a workgroup without a word after 65535 rounds of its loops.
 TEST_F(SurfaceImage, HasAllOfNeedles) {
-  SceneOptions options = separate();
-  options.width = 1280;
-  options.height = 720;
-  options.validation = false;
-  const HeadlessScene wide(options);
-  constexpr double HEIGHT = 500;
-  addSurface(wide, support::needleMesh(2560), wide.addHenyeyGreenstein(0), EXTINCTION,
-             {50000, 50000, HEIGHT}, {0, 0, -3000});
-  wide.setCamera({0, 0, 0}, 0, 0);
-  wide.render();
-  const Image image = wide.read(WLK_IMAGE_TRANSMITTANCE);
-  int lost = 0;
-  for (uint32_t y = 0; y < image.height; ++y) {
-    for (uint32_t x = 0; x < image.width; ++x) {
-      // Nowhere in view is the body less than nine tenths as thick as between its tips.
-      lost += image.at(x, y)[0] > std::exp(-0.9 * 2 * HEIGHT * EXTINCTION) ? 1 : 0;
-    }
-  }
-  EXPECT_EQ(lost, 0) << "pixels without the body";
+  EXPECT_EQ(thinPixels(support::needleMesh(2560), HeadlessScene(quick(1280, 720)), 5e4), 0);
 }
 
 // More large triangles than the list of them has room for, in a picture of few pixels: most of the
 // needles have boxes of 160 by 112 pixels or more, and those beyond the list are shared by their
 // neighbours.
 TEST_F(SurfaceImage, HasAllOfMoreNeedlesThanListed) {
-  SceneOptions options = separate();
-  options.width = 320;
-  options.height = 320;
-  options.validation = false;
-  const HeadlessScene full(options);
-  constexpr double HEIGHT = 500;
   constexpr double NARROW = 0.1;  // the body's shape along the picture's other diagonal
   support::ClosedMesh mesh = support::needleMesh(20000);
   for (glm::dvec3& p : mesh.position) {
     p = {p.x - NARROW * p.y, p.x + NARROW * p.y, p.z};
   }
-  addSurface(full, mesh, full.addHenyeyGreenstein(0), EXTINCTION, {500000, 500000, HEIGHT},
-             {0, 0, -3000});
-  full.setCamera({0, 0, 0}, 0, 0);
-  full.render();
-  const Image image = full.read(WLK_IMAGE_TRANSMITTANCE);
-  int lost = 0;
-  for (uint32_t y = 0; y < image.height; ++y) {
-    for (uint32_t x = 0; x < image.width; ++x) {
-      // Nowhere in view is the body less than nine tenths as thick as between its tips.
-      lost += image.at(x, y)[0] > std::exp(-0.9 * 2 * HEIGHT * EXTINCTION) ? 1 : 0;
-    }
-  }
-  EXPECT_EQ(lost, 0) << "pixels without the body";
+  EXPECT_EQ(thinPixels(mesh, HeadlessScene(quick(320, 320)), 5e5), 0);
 }
 
 // Triangles of half a pixel to many, 131072 of them: a pixel that slipped between two would see the
 // sky through the ball.
 TEST_F(SurfaceImage, HasNoCracks) {
-  SceneOptions options = separate();
-  options.width = 960;
-  options.height = 540;
-  options.validation = false;
-  const HeadlessScene fine(options);
+  const HeadlessScene fine(quick(960, 540));
   addSurface(fine, support::sphereMesh(7), fine.addHenyeyGreenstein(0), EXTINCTION,
              {1000, 1000, 1000}, {0, 0, 0});
   for (const std::array<double, 3>& eye :

@@ -26,7 +26,7 @@ uvec3 surfaceCorners(uint triangle) {
 }
 
 void surfaceCross(SurfaceUniforms s, ivec2 pixel, uint at, SurfaceCrossing crossing, uint triangle);
-// Told that there is room, main takes large triangles by themselves.
+// Told in a word that the library leaves 0, main takes large triangles by themselves.
 bool surfaceLater(uint triangle, uint pixels, uint strips) {
   return uniforms.triangle.w != 0u;
 }

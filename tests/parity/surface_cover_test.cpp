@@ -112,7 +112,7 @@ SurfaceCover coverOf(const std::array<uint32_t, SURFACE_COVER_WORDS>& row) {
 std::vector<Covered> onDevice(support::ComputeRunner& runner, const ClosedMesh& mesh,
                               SurfaceUniforms u, bool large = true, uint32_t* strips = nullptr) {
   const auto triangles = static_cast<uint32_t>(mesh.triangle.size());
-  constexpr uint32_t STRIPS = 16;
+  constexpr uint32_t STRIPS = 1u << SURFACE_STRIPS;  // at most, in pictures so small
   const auto pixels = static_cast<size_t>((u.rect.z - u.rect.x) * (u.rect.w - u.rect.y));
   u.triangle = {triangles, 0, 0, large ? 1 : 0};
   std::vector<float> input(sizeof u / sizeof(float));
