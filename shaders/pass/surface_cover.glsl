@@ -25,7 +25,6 @@ struct SurfaceTriangle {
   vec3 a;
   vec3 b;
   vec3 c;
-  bvec3 turned;  // edges bc, ca and ab run from the higher number to the lower
   vec3 depths;
   ivec4 box;
 };
@@ -88,7 +87,6 @@ SurfaceTriangle surfaceTriangle(SurfaceUniforms s, uint triangle) {
   t.a = surfacePoint(s, p);
   t.b = surfacePoint(s, q);
   t.c = surfacePoint(s, r);
-  t.turned = bvec3(at.y > at.z, at.z > at.x, at.x > at.y);
   t.depths = vec3(dot(s.depth, vec4(p, 1.0f)), dot(s.depth, vec4(q, 1.0f)),
                   dot(s.depth, vec4(r, 1.0f)));
   t.box = surfaceBox(s, t.a, t.b, t.c);
@@ -118,18 +116,23 @@ uint surfaceStep(SurfaceUniforms s, float depth) {
   return uint(clamp((depth - s.steps.x) * s.steps.y, 0.0f, s.steps.z) + 0.5f);
 }
 
+// n / d for n up to SURFACE_LANES, exactly: lavapipe divides integers lane by lane.
+uint surfaceQuotient(uint n, uint d) {
+  return uint((float(n) + 0.5f) / float(d));
+}
+
 // Every `stride`th pixel of the triangle's box.
 void coverBox(SurfaceUniforms s, SurfaceTriangle t, uint triangle, uint first, uint stride) {
   uint width = max(uint(max(t.box.z - t.box.x, 0)), 1u);
   uint count = surfaceBoxSize(t.box);
-  // Rows and columns ahead, once: lavapipe divides integers lane by lane.
-  uint down = stride / width;
+  // Rows and columns ahead, once.
+  uint down = surfaceQuotient(stride, width);
   uint right = stride - down * width;
-  uint y = first / width;
+  uint y = surfaceQuotient(first, width);
   uint x = first - y * width;
   for (uint n = first; n < count; n += stride) {
     ivec2 pixel = t.box.xy + ivec2(int(x), int(y));
-    SurfaceCrossing crossing = surfaceCrossing(t.a, t.b, t.c, t.turned, t.depths, vec2(pixel));
+    SurfaceCrossing crossing = surfaceCrossing(t.a, t.b, t.c, t.depths, vec2(pixel));
     if (crossing.facing != 0.0f && crossing.depth > s.steps.w) {
       crossing.facing = s.triangle.y != 0u ? -crossing.facing : crossing.facing;
       uint at = uint(pixel.y - s.rect.y) * uint(s.rect.z - s.rect.x) + uint(pixel.x - s.rect.x);

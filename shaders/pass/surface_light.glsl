@@ -15,13 +15,12 @@ struct SurfaceMap {
   float extinction;  // canonical depth per metre: 1 - f of the medium's
 };
 
-// `face`: depth of the lit face above the point, m.
-LightFootprint surfaceFootprint(sampler2D columns, sampler2D faces, SurfaceMap map, vec2 place,
-                                float level, float face) {
+// Of what the maps hold at a level; `face`: depth of the lit face above the point, m.
+LightFootprint footprintOf(vec4 column, vec4 side, SurfaceMap map, float level, float face) {
   // The maps end where one texel holds the whole cloud: a wider footprint is that and nothing.
   float part = exp2(-2.0 * max(level - map.levels, 0.0));
-  vec4 column = part * textureLod(columns, place, level);
-  vec4 side = part * textureLod(faces, place, level);
+  column *= part;
+  side *= part;
   LightFootprint around;
   around.coverage = column.x;
   around.through = column.y * map.extinction;
@@ -30,6 +29,12 @@ LightFootprint surfaceFootprint(sampler2D columns, sampler2D faces, SurfaceMap m
   around.shaded = vec3(side.yz, -sqrt(max(column.x * column.x - dot(side.yz, side.yz), 0.0)));
   around.rise = (footprintMean(side.w, column.x) - face) * map.extinction;
   return around;
+}
+
+LightFootprint surfaceFootprint(sampler2D columns, sampler2D faces, SurfaceMap map, vec2 place,
+                                float level, float face) {
+  return footprintOf(textureLod(columns, place, level), textureLod(faces, place, level), map, level,
+                     face);
 }
 
 float surfaceLogSource(sampler3D source, int set, SourcePlace at) {
@@ -53,12 +58,13 @@ vec3 surfaceScattered(sampler2D columns, sampler2D faces, sampler3D source, samp
                       SurfaceMap map, vec2 place, float depth, float shade, vec3 toEye,
                       vec4 left[8]) {
   const vec3 TO_LIGHT = vec3(0.0, 0.0, 1.0);
+  float texel = map.texel * map.extinction;
   LightFootprint here = surfaceFootprint(columns, faces, map, place, 0.0, depth - shade);
   float through = footprintMean(here.through, here.coverage);
   float share = lightDepthShare(shade * map.extinction, through);
-  LightFootprint some = surfaceFootprint(
-      columns, faces, map, place,
-      footprintLevel(LOCAL_SPREAD / max(map.extinction, 1e-20), map.texel), depth - shade);
+  LightFootprint some =
+      surfaceFootprint(columns, faces, map, place, footprintLevel(LOCAL_SPREAD, texel),
+                       depth - shade);
   float across = footprintMean(some.through, some.coverage);
   TangentSlab local = tangentSlab(across, depthInSlab(across, share, through),
                                   directionOr(some.lit, TO_LIGHT), TO_LIGHT, toEye);
@@ -66,12 +72,33 @@ vec3 surfaceScattered(sampler2D columns, sampler2D faces, sampler3D source, samp
   float turn = (angle * 180.0 + 0.5) / 181.0;
   vec4 few = textureLod(curves, vec2(turn, 0.25), 0.0);
   vec4 many = textureLod(curves, vec2(turn, 0.75), 0.0);
+  // Of sets of known width linear between whole levels, as the sampler would have it, but each read
+  // once.
+  float base = footprintMapLevel(local, texel);
+  float finest = base + footprintSetLevel(0, local);
+  float first = floor(finest);
+  vec4 column[SURFACE_RUNGS];
+  vec4 side[SURFACE_RUNGS];
+  for (int rung = 0; rung < SURFACE_RUNGS; ++rung) {
+    float level = max(first + float(rung), 0.0);
+    column[rung] = textureLod(columns, place, level);
+    side[rung] = textureLod(faces, place, level);
+  }
   vec3 sum = vec3(0.0);
   for (int set = 0; set < SURFACE_SETS; ++set) {
-    float spread = footprintSpread(set, local) / max(map.extinction, 1e-20);
-    LightFootprint around =
-        surfaceFootprint(columns, faces, map, place, footprintLevel(spread, map.texel),
-                         depth - shade);
+    LightFootprint around;
+    if (set < SURFACE_DIFFUSE) {
+      int rung = footprintRung(set);
+      float above = finest - first + footprintSetLevel(set, local) - footprintSetLevel(0, local);
+      vec3 weight = max(1.0 - abs(above - vec3(rung, rung + 1, rung + 2)), 0.0);
+      around = footprintOf(
+          weight.x * column[rung] + weight.y * column[rung + 1] + weight.z * column[rung + 2],
+          weight.x * side[rung] + weight.y * side[rung + 1] + weight.z * side[rung + 2], map,
+          max(first + above, 0.0), depth - shade);
+    } else {
+      around = surfaceFootprint(columns, faces, map, place,
+                                max(base + footprintSetLevel(set, local), 0.0), depth - shade);
+    }
     SurfaceSlab found = surfaceSlab(set, around, share, through, TO_LIGHT, toEye);
     SourcePlace at = sourcePlace(set, found.slab);
     float logPhase = set < 4 ? few[set] : many[set - 4];

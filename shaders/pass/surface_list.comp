@@ -83,7 +83,7 @@ void main() {
     list(corner, covered & SECONDS, SURFACE_LIST_SECONDS);
     list(corner, covered & ~(FOURTHS | SECONDS), SURFACE_LIST_OTHERS);
     for (uint seconds = others & (FOURTHS | SECONDS); seconds != 0u; seconds &= seconds - 1u) {
-      imageStore(secondLight, pixelOf(corner, uint(findLSB(seconds))) / 2, vec4(0.0f));
+      imageStore(secondLight, pixelOf(corner, uint(findLSB(seconds))) >> 1, vec4(0.0f));
     }
   }
   while (others != 0u) {

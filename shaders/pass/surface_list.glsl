@@ -23,10 +23,15 @@ uint listAddress(uint list, uint number) {
   return back ? first + pixels - 1u - number : first + number;
 }
 
-// Places for so many pixels: the number of the first.
+// Places for so many pixels: the number of the first. Rows have a power of 2 of groups, so that
+// shifts will do: lavapipe divides integers lane by lane.
 uint takePlaces(uint list, uint count) {
   uint at = atomicAdd(listed[4u * list + 3u], count);
-  atomicMax(listed[4u * list + 1u], (at + count - 1u) / (64u * listed[4u * list]) + 1u);
+  uint row = 6u + uint(findMSB(listed[4u * list]));
+  uint last = (at + count - 1u) >> row;
+  if (at == 0u || last > (at - 1u) >> row) {  // else who had the place before has counted this row
+    atomicMax(listed[4u * list + 1u], last + 1u);
+  }
   return at;
 }
 

@@ -45,7 +45,8 @@ float shadeOf(MapPlace place, vec4 a, vec4 b, vec4 c, vec4 d) {
   vec2 u = vec2(1.0f - place.part.x, place.part.x);
   vec4 weight = covered * vec4(u * (1.0f - place.part.y), u * place.part.y);
   float weights = weight.x + weight.y + weight.z + weight.w;
-  vec4 mean = (weight.x * a + weight.y * b + weight.z * c + weight.w * d) / max(weights, 1.0e-20f);
+  vec4 mean = (weight.x * a + weight.y * b + weight.z * c + weight.w * d) *
+              (1.0f / max(weights, 1.0e-20f));
   float near = place.depth - mean.x;
   float far = max(mean.w - (mean.z - place.depth), mean.y - mean.x);
   float before = place.depth <= mean.y ? near : far;

@@ -52,7 +52,7 @@ void main() {
   vec3 direction = pixelDirection(frame, vec2(pixel));
   vec3 light = scatteredAt(direction, point.w, point.x);
   if (HALF && slice.firstSlab != SURFACE_LIST_OWN) {
-    imageStore(secondLight, pixel / 2, vec4(light, point.w));
+    imageStore(secondLight, pixel >> 1, vec4(light, point.w));
   }
   uint index = uint(pixel.y) * uint(frame.viewport.x) + uint(pixel.x);
   frameState[index].xyz = stateAt(index).xyz + light * weight;

@@ -141,10 +141,11 @@ vec3 ambientAt(vec3 direction, ShellRay shell, float distance_) {
   float share = lightDepthShare(shade * map.extinction, through);
   TangentSlab local =
       tangentSlab(through, through * share, directionOr(here.lit, UP), UP, toEye);
-  float spread = footprintSpread(AMBIENT_SET, local) / max(map.extinction, 1.0e-20f);
+  float level = max(footprintMapLevel(local, map.texel * map.extinction) +
+                        footprintSetLevel(AMBIENT_SET, local),
+                    0.0f);
   LightFootprint around =
-      surfaceFootprint(upColumns, upFaces, map, place, footprintLevel(spread, map.texel),
-                       at.depth - shade);
+      surfaceFootprint(upColumns, upFaces, map, place, level, at.depth - shade);
   TangentSlab slab = surfaceSlab(AMBIENT_SET, around, share, through, UP, toEye).slab;
   SharePlace node = sharePlace(slab.thickness, slab.depth, slab.muView);
   float view = min(floor(node.view), float(SHARE_VIEWS) - 2.0f);
@@ -279,7 +280,7 @@ void main() {
         if (own) {
           listOwn(pixel, slice.firstSlab);
         } else if (second) {
-          imageStore(secondLight, pixel / 2, vec4(between.xyz, distance_));
+          imageStore(secondLight, pixel >> 1, vec4(between.xyz, distance_));
         }
       }
       if (own) {

@@ -22,20 +22,21 @@ void look(inout Around around, ivec2 pixel, int apart) {
   bool inside = all(greaterThanEqual(pixel, surface.rect.xy)) &&
                 all(lessThan(pixel, surface.rect.zw));
   // Never one that a second pixel's invocation may be writing.
-  ivec2 at = inside ? pixel : surface.rect.xy / apart * apart;
-  vec4 light = imageLoad(secondLight, at / 2);
+  ivec2 at = inside ? pixel : surface.rect.xy & ~(apart - 1);
+  vec4 light = imageLoad(secondLight, at >> 1);
   around.there = around.there && inside && light.w > 0.0f;
   around.sum += light;
   around.least = min(around.least, light);
   around.most = max(around.most, light);
 }
 
-// At a pixel whose point is at `range`, between those that are `apart` pixels apart: w is 0 where
-// it has to have its own.
+// At a pixel whose point is at `range`, between those that are `apart` pixels apart, a power of 2:
+// w is 0 where it has to have its own.
 vec4 lightBetween(ivec2 pixel, float range, int apart) {
-  // Of 2 or, between two rows, 4; in the other case some are the same.
-  ivec2 low = pixel / apart * apart;
-  ivec2 high = (pixel + apart - 1) / apart * apart;
+  // Of 2 or, between two rows, 4; in the other case some are the same. Masks: lavapipe divides
+  // integers lane by lane, which took 2 % of a surface's frame.
+  ivec2 low = pixel & ~(apart - 1);
+  ivec2 high = (pixel + apart - 1) & ~(apart - 1);
   Around around = Around(vec4(0.0f), vec4(3.0e38f), vec4(0.0f), true);
   look(around, low, apart);
   look(around, ivec2(high.x, low.y), apart);

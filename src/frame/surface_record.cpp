@@ -2,6 +2,7 @@
 #include "frame/surface_record.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "failure.hpp"
@@ -261,11 +262,13 @@ class SurfaceRecorder {
                                           SHADER_ACCESS | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
   }
 
-  // Their heads: no pixel, and as few groups along x as 65535 along y, which any device has, allow.
+  // Their heads: no pixel, and as few groups along x, a power of 2, as 65535 along y, which any
+  // device has, allow.
   void emptyLists() {
     constexpr uint32_t ROWS = 64 * 65535;
     const WlkViewInfo& info = c_.view.info;
-    const auto across = static_cast<uint32_t>((uint64_t{info.width} * info.height) / ROWS + 1);
+    const uint64_t pixels = uint64_t{info.width} * info.height;
+    const uint32_t across = std::bit_ceil(static_cast<uint32_t>(pixels / ROWS + 1));
     std::array<uint32_t, interface_::SURFACE_LIST_HEAD> head{};
     for (uint32_t list = 0; list < interface_::SURFACE_LISTS; ++list) {
       head[size_t{4} * list] = across;

@@ -67,11 +67,10 @@ std::vector<Covered> onCpu(const ClosedMesh& mesh, const SurfaceUniforms& u) {
       corner[i] = {along(u.pixelX, p), along(u.pixelY, p), along(u.pixelW, p)};
       depths[i] = along(u.depth, p);
     }
-    const f32::bvec3 turned(t[1] > t[2], t[2] > t[0], t[0] > t[1]);
     for (int y = 0; y < HEIGHT; ++y) {
       for (int x = 0; x < WIDTH; ++x) {
         const f32::SurfaceCrossing hit =
-            f32::surfaceCrossing(corner[0], corner[1], corner[2], turned, depths,
+            f32::surfaceCrossing(corner[0], corner[1], corner[2], depths,
                                  {static_cast<float>(x), static_cast<float>(y)});
         if (hit.facing == 0.0f || !(hit.depth > u.steps.w)) {
           continue;

@@ -41,6 +41,14 @@ vec4 textureLod(uint source, vec3 place, float level) {
   return sum;
 }
 
+vec4 atLevel(int map, vec2 place, float level) {
+  float coverage = 1.0 / (1.0 + 0.1 * level);
+  float slope = 0.6 * place.x / (1.0 + level);
+  return coverage * (map == COLUMNS_MAP ? vec4(1.0, 20.0 * place.y + level, slope, 0.1)
+                                        : vec4(0.8, 0.2, slope, 5.0 + level));
+}
+
+// Linear between whole levels, as of a sampler.
 vec4 textureLod(int map, vec2 place, float level) {
   if (map == CURVES_MAP) {
     float at = place.x * 181.0 - 0.5;
@@ -48,10 +56,8 @@ vec4 textureLod(int map, vec2 place, float level) {
     int first = CURVES / 4 + int(place.y * 2.0) * 181 + low;
     return mix(four(first), four(first + 1), at - float(low));
   }
-  float coverage = 1.0 / (1.0 + 0.1 * level);
-  float slope = 0.6 * place.x / (1.0 + level);
-  return coverage * (map == COLUMNS_MAP ? vec4(1.0, 20.0 * place.y + level, slope, 0.1)
-                                        : vec4(0.8, 0.2, slope, 5.0 + level));
+  float low = floor(level);
+  return mix(atLevel(map, place, low), atLevel(map, place, low + 1.0), level - low);
 }
 
 #define sampler2D int

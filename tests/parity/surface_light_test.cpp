@@ -20,17 +20,35 @@ namespace f64 = welkin::model::f64;
 constexpr size_t ROWS = 1024;
 constexpr uint32_t GROUP = 64;
 
-// The maps of surface_light.comp.
-f64::LightFootprint footprint(double x, double y, double level, double extinction,
-                              double shade = 0) {
+// The maps of surface_light.comp: columns and faces at a level.
+struct Maps {
+  f64::vec4 column;
+  f64::vec4 face;
+};
+
+Maps mapsAt(double x, double y, double level) {
   const double coverage = 1 / (1 + 0.1 * level);
   const double slope = 0.6 * x / (1 + level);
+  return {f64::vec4(1, 20 * y + level, slope, 0.1) * coverage,
+          f64::vec4(0.8, 0.2, slope, 5 + level) * coverage};
+}
+
+// Linear between whole levels.
+f64::LightFootprint footprint(double x, double y, double level, double extinction,
+                              double shade = 0) {
+  const double low = std::floor(level);
+  const Maps a = mapsAt(x, y, low);
+  const Maps b = mapsAt(x, y, low + 1);
+  const f64::vec4 column = glm::mix(a.column, b.column, level - low);
+  const f64::vec4 face = glm::mix(a.face, b.face, level - low);
+  const double coverage = column.x;
   f64::LightFootprint around{};
   around.coverage = coverage;
-  around.through = coverage * (20 * y + level) * extinction;
-  around.lit = f64::vec3(slope, 0.1, 0.8) * coverage;
-  around.shaded = f64::vec3(0.2, slope, -std::sqrt(1 - 0.04 - slope * slope)) * coverage;
-  around.rise = (5 + level - (8 - shade)) * extinction;  // a point 8 m along the light
+  around.through = column.y * extinction;
+  around.lit = f64::vec3(column.z, column.w, face.x);
+  around.shaded = f64::vec3(face.y, face.z,
+                            -std::sqrt(coverage * coverage - face.y * face.y - face.z * face.z));
+  around.rise = (face.w / coverage - (8 - shade)) * extinction;  // a point 8 m along the light
   return around;
 }
 

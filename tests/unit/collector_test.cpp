@@ -56,4 +56,27 @@ TEST(Collector, LevelsHaveTheSpreadOfTheFootprint) {
   EXPECT_EQ(f64::footprintMean(0.6, 0), 0);
 }
 
+// Wherever the first set's level lies between two whole ones.
+TEST(Collector, ThreeRungsHoldTheLevelOfASet) {
+  for (int set = 0; set < f64::SURFACE_DIFFUSE; ++set) {
+    const double above = f64::footprintSetLevel(set, {}) - f64::footprintSetLevel(0, {});
+    EXPECT_EQ(f64::footprintRung(set), std::floor(above)) << set;
+    EXPECT_LT(f64::footprintRung(set) + 2, f64::SURFACE_RUNGS) << set;
+  }
+}
+
+TEST(Collector, LevelsOfSetsAreThoseOfTheirSpread) {
+  for (int set = 0; set < f64::SURFACE_SETS; ++set) {
+    for (const double muLight : {0.01, 0.4, 1.0}) {
+      for (const double texel : {0.003, 0.7, 90.0}) {
+        const f64::TangentSlab local{40, 9, muLight, 0.5, 1};
+        const double level =
+            f64::footprintMapLevel(local, texel) + f64::footprintSetLevel(set, local);
+        EXPECT_NEAR(std::max(level, 0.0),
+                    f64::footprintLevel(f64::footprintSpread(set, local), texel), 1e-12);
+      }
+    }
+  }
+}
+
 }  // namespace

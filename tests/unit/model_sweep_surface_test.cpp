@@ -80,7 +80,8 @@ TEST(ModelSweep, CollectorsStepNoFurtherThanAWidth) {
       m::collectorResidual(m::vec2(x[0], x[1]), m::vec2(x[2], x[3]), x[4]));
   SWEEP(2, "footprintLevel", (Claim{0.0, 300.0}),
         ({a.magnitude(1e-30f, 1e15f), a.magnitude(1e-30f, 1e15f)}), m::footprintLevel(x[0], x[1]));
-  SWEEP(2, "footprintMean", (Claim{0.0, 1e36, roundings(1.01)}),
+  // An inverse and a product.
+  SWEEP(2, "footprintMean", (Claim{0.0, 1e36, roundings(2.01)}),
         ({a.magnitude(1e-30f, 1e30f), a.magnitude(1e-9f, 1.0f)}), m::footprintMean(x[0], x[1]));
 }
 
@@ -92,6 +93,13 @@ TEST(ModelSweep, WidthsOfFootprintsAreFinite) {
   // That of the width, of a slab whose own numbers are drawn.
   SWEEP(12, "footprintSpread", (Claim{0.0, 1e6}), (joined(anySlab(a), std::array{a.index(8)})),
         m::footprintSpread(int(x[11]), SLAB));
+  SWEEP(1, "footprintRung", (Claim{0.0, 4.0, roundings(1)}), ({a.index(7)}),
+        real(m::footprintRung(int(x[0]))));
+  SWEEP(12, "footprintMapLevel", (Claim{-70.0, 70.0}),
+        (joined(anySlab(a), std::array{a.magnitude(1e-30f, 1e30f)})),
+        m::footprintMapLevel(SLAB, x[11]));
+  SWEEP(12, "footprintSetLevel", (Claim{-2.0, 20.0}), (joined(anySlab(a), std::array{a.index(8)})),
+        m::footprintSetLevel(int(x[11]), SLAB));
   // No shorter than 0.3 before it is normalised.
   SWEEP(7, "slabNormal", (Claim{-1.00001, 1.00001, roundings(6.0 / 0.3), 1.0}),
         (joined(a.direction(), a.direction(), std::array{a.magnitude(1e-9f, 1e9f)})),

@@ -56,12 +56,11 @@ std::vector<Seen> draw(const ClosedMesh& mesh, const Camera& camera) {
   }
   std::vector<Seen> picture(size_t{SIZE} * SIZE);
   for (const auto& t : mesh.triangle) {
-    const f32::bvec3 turned(t[1] > t[2], t[2] > t[0], t[0] > t[1]);
     const f32::vec3 depths(vertex[t[0]].z, vertex[t[1]].z, vertex[t[2]].z);
     for (int i = 0; i < SIZE * SIZE; ++i) {
       const f32::vec2 pixel(static_cast<float>(i % SIZE), static_cast<float>(i / SIZE));
       const f32::SurfaceCrossing hit =
-          f32::surfaceCrossing(vertex[t[0]], vertex[t[1]], vertex[t[2]], turned, depths, pixel);
+          f32::surfaceCrossing(vertex[t[0]], vertex[t[1]], vertex[t[2]], depths, pixel);
       if (hit.facing != 0.0f && hit.depth > 0.0f) {
         Seen& seen = picture[static_cast<size_t>(i)];
         seen.net += static_cast<int>(hit.facing);
@@ -188,9 +187,8 @@ TEST(SurfaceTriangle, SharedEdgesBelongToOneTriangleWhateverTheirPlace) {
         bool beside = false;
         for (size_t i = 0; i < 4; ++i) {
           const size_t next = (i + 1) % 4;
-          // Numbers: the middle 0, the rim 1 to 4.
-          const f32::SurfaceCrossing hit = f32::surfaceCrossing(
-              middle, rim[i], rim[next], f32::bvec3(i > next, true, false), f32::vec3(1.0f), pixel);
+          const f32::SurfaceCrossing hit =
+              f32::surfaceCrossing(middle, rim[i], rim[next], f32::vec3(1.0f), pixel);
           hits += hit.facing < 0.0f ? 1 : 0;
           beside = beside || f32::edgeArea(f32::fromPixel(rim[i], pixel),
                                            f32::fromPixel(rim[next], pixel)) <= 0.0f;

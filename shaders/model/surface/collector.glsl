@@ -26,12 +26,15 @@ const real GAUSSIAN_TEXEL = real(2.0f);
 const real LEVELS_PER_E_FOLD = real(1.4426950408889634);
 real footprintLevel(real sigma, real texel) {
   return LEVELS_PER_E_FOLD *
-         log(max(GAUSSIAN_TEXEL * sigma / max(texel, real(1e-20)), real(1.0f)));
+         log(max(sigma * (GAUSSIAN_TEXEL / max(texel, real(1e-20))), real(1.0f)));
 }
 
+// Quotients by what several have in common are products with its inverse, which compilers then make
+// once: a surface's light was a third divisions.
+//
 // Mean over the cloud of what a mipmap weighted with its coverage holds: `sum` over all of the
 // footprint, [B08] 7 as Z / A; 0 where there is no cloud.
 const real COVERAGE_LEAST = real(1e-6);
 real footprintMean(real sum, real coverage) {
-  return coverage > COVERAGE_LEAST ? sum / coverage : real(0.0f);
+  return coverage > COVERAGE_LEAST ? sum * (real(1.0f) / coverage) : real(0.0f);
 }

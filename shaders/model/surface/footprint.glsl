@@ -58,6 +58,26 @@ real footprintSpread(int set, TangentSlab local) {
   return width * sqrt(real(0.5f) * local.muLight);
 }
 
+// Its level in the light map, footprintLevel(footprintSpread), in two terms, as sets have that of
+// the light map in common: below 0 what is seen is level 0. `texel`: width at level 0, optical.
+real footprintMapLevel(TangentSlab local, real texel) {
+  real scale = sqrt(real(0.5f) * local.muLight) * (GAUSSIAN_TEXEL / max(texel, real(1e-20)));
+  return LEVELS_PER_E_FOLD * log(max(scale, real(1e-20)));
+}
+real footprintSetLevel(int set, TangentSlab local) {
+  real thickness = min(local.thickness, SPREAD_THICKEST);
+  return LEVELS_PER_E_FOLD *
+         log(set < SURFACE_DIFFUSE ? collectorWidth(set)
+                                   : diffuseWidth(thickness, min(local.depth, thickness)));
+}
+
+// Whole levels from that of the first set, rounded down, to a set's, likewise, for sets of known
+// width: so few levels serve all of these.
+const int SURFACE_RUNGS = 7;
+int footprintRung(int set) {
+  return set < 3 ? set : (set < 5 ? 3 : 4);
+}
+
 // Normal of the slab: of the lit face, turned towards the mean of both faces where the light goes
 // through, since a wedge or a ball passes light as the slab across its middle does. Never shorter
 // than 0.3 before it is normalised.
@@ -69,7 +89,7 @@ vec3 slabNormal(vec3 lit, vec3 shaded, real acrossInWidths) {
 // Unit vector along v; `other` where there is none.
 vec3 directionOr(vec3 v, vec3 other) {
   real square = dot(v, v);
-  return square > real(1e-12) ? v / sqrt(max(square, real(1e-12))) : other;
+  return square > real(1e-12) ? v * (real(1.0f) / sqrt(max(square, real(1e-12)))) : other;
 }
 
 // Part of a set's light that never left the cloud sideways, if the part `coverage` of its entry
@@ -98,8 +118,8 @@ const real HILL_WIDTH = real(0.2);
 real hillKept(int set, real coverage, real rise) {
   real a = clamp(coverage, real(0.0f), real(1.0f));
   real covered = a * a * a * a * a;
-  return safeExp(-HILL_LOSS * covered * abs(rise) /
-                 (HILL_FACE + HILL_WIDTH * collectorWidth(set)));
+  real loss = HILL_LOSS / (HILL_FACE + HILL_WIDTH * collectorWidth(set));
+  return safeExp(-loss * covered * abs(rise));
 }
 
 // Depth in a slab `through` thick of a point that the part `share` of the `here` of cloud on its
@@ -119,9 +139,9 @@ SurfaceSlab surfaceSlab(int set, LightFootprint around, real depthShare, real he
   real through = footprintMean(max(around.through, real(0.0f)), around.coverage);
   vec3 lit = directionOr(around.lit, toLight);
   vec3 shaded = directionOr(around.shaded, -toLight);
-  real width = set < 2 ? collectorWidth(set) / real(0.7) : collectorWidth(set);
+  real inWidths = (set < 2 ? real(0.7) : real(1.0f)) / collectorWidth(set);
   real across = through * max(dot(lit, toLight), real(0.0f));
-  vec3 normal = slabNormal(lit, shaded, across / width);
+  vec3 normal = slabNormal(lit, shaded, across * inWidths);
   SurfaceSlab result;
   result.slab =
       tangentSlab(through, depthInSlab(through, depthShare, here), normal, toLight, toEye);

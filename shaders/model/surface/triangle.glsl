@@ -8,8 +8,8 @@
 // Each pixel sees vertices from itself: the sides of edges are then signs of areas between nearby
 // points, known to 1e-7 of them. Lines of the whole picture, which cost less, miss the vertices
 // where they should meet by 0.03 pixels in a picture of 960, and pixels fall between. All triangles
-// at a vertex see it at the same place, and those at an edge compute the same area: that from the
-// vertex of lower number to the other, whose sign one of them changes.
+// at a vertex see it at the same place, and those at an edge compute the same area but for its sign:
+// with no product fused into the difference (`precise`), a b - c d and c d - a b round alike.
 
 vec3 fromPixel(vec3 vertex, vec2 pixel) {
   precise vec3 moved = vec3(vertex.x - pixel.x * vertex.z, vertex.y - pixel.y * vertex.z, vertex.z);
@@ -35,14 +35,10 @@ struct EdgeAt {
   real side;
 };
 
-// `turned`: the second vertex has the lower number.
-EdgeAt edgeAt(vec3 a, vec3 b, bool turned) {
-  vec3 first = turned ? b : a;
-  vec3 second = turned ? a : b;
+EdgeAt edgeAt(vec3 first, vec3 second) {
   EdgeAt edge;
   edge.area = edgeArea(first, second);
   edge.side = edgeSide(first, second, edge.area);
-  edge.side = turned ? -edge.side : edge.side;
   return edge;
 }
 
@@ -51,15 +47,14 @@ struct SurfaceCrossing {
   real depth;   // between those of the vertices; crossings below 0 lie behind the eye
 };
 
-// turned: of the edges bc, ca and ab. `depths` are the vertices' own: W, or along a parallel
-// projection what is asked for.
-SurfaceCrossing surfaceCrossing(vec3 a, vec3 b, vec3 c, bvec3 turned, vec3 depths, vec2 pixel) {
+// `depths` are the vertices' own: W, or along a parallel projection what is asked for.
+SurfaceCrossing surfaceCrossing(vec3 a, vec3 b, vec3 c, vec3 depths, vec2 pixel) {
   vec3 p = fromPixel(a, pixel);
   vec3 q = fromPixel(b, pixel);
   vec3 r = fromPixel(c, pixel);
-  EdgeAt first = edgeAt(q, r, turned.x);
-  EdgeAt second = edgeAt(r, p, turned.y);
-  EdgeAt third = edgeAt(p, q, turned.z);
+  EdgeAt first = edgeAt(q, r);
+  EdgeAt second = edgeAt(r, p);
+  EdgeAt third = edgeAt(p, q);
   bool one = first.side == second.side && first.side == third.side;
   vec3 weight = abs(vec3(first.area, second.area, third.area));
   real sum = weight.x + weight.y + weight.z;

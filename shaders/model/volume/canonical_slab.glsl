@@ -11,19 +11,20 @@ const real CANONICAL_FACE = real(0.1);     // depth below a face where nodes beg
 
 // [0, 1] for t between the thinnest and the thickest.
 real canonicalThickness(real t) {
-  return log(clamp(t, CANONICAL_THINNEST, CANONICAL_THICKEST) / CANONICAL_THINNEST) /
-         log(CANONICAL_THICKEST / CANONICAL_THINNEST);
+  return log(clamp(t, CANONICAL_THINNEST, CANONICAL_THICKEST) / CANONICAL_THINNEST) *
+         (real(1.0f) / log(CANONICAL_THICKEST / CANONICAL_THINNEST));
 }
 
 // ln(1 + depth below a face).
 real canonicalSpread(real d) {
-  return log(real(1.0f) + d / CANONICAL_FACE);
+  return log(real(1.0f) + d * (real(1.0f) / CANONICAL_FACE));
 }
 
 // [0, 1] from the lit face to the other, dense at both; d in [0, t].
 real canonicalDepth(real d, real t) {
-  return real(0.5f) + real(0.5f) * (canonicalSpread(d) - canonicalSpread(t - d)) /
-                          canonicalSpread(t);
+  real near = real(1.0f) + d * (real(1.0f) / CANONICAL_FACE);
+  real far = real(1.0f) + (t - d) * (real(1.0f) / CANONICAL_FACE);
+  return real(0.5f) + real(0.5f) * log(near / far) / canonicalSpread(t);
 }
 
 // [0, 1] for |cosine| between the least and 1. Never below 0, of which nodes are counted, where a
@@ -31,7 +32,7 @@ real canonicalDepth(real d, real t) {
 real canonicalCosine(real mu) {
   real least = sqrt(CANONICAL_COSINE);
   real root = sqrt(clamp(mu, CANONICAL_COSINE, real(1.0f)));
-  return max(root - least, real(0.0f)) / (real(1.0f) - least);
+  return max(root - least, real(0.0f)) * (real(1.0f) / (real(1.0f) - least));
 }
 
 // Weights of four nodes at -1, 0, 1, 2 for x in [0, 1]: the cubic through all four.
