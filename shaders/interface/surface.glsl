@@ -98,5 +98,6 @@ const uint SURFACE_TEAM = 8u;     // lanes that
 const uint SURFACE_MIDDLE = 1024u;  // walk so many together
 const uint SHELL_PIXELS = 4u;     // of the picture that fills the cells, along a cell's edge
 const float SHELL_OUTSIDE = 1.5f;  // depth in cells beyond the box, below the surface's 0
-const uint SHELL_LEVELS = 8u;      // of the noise
+const uint SHELL_NOISE = 128u;     // texels of the noise along an edge
+const uint SHELL_LEVELS = 8u;      // of it
 const uint SHELL_FULL = 1024u;    // what one of them counts in a cell that is all cloud

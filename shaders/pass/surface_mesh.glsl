@@ -14,7 +14,10 @@ layout(set = 0, binding = 4, std430) buffer CoverWords { uint surfaceWords[]; };
 layout(set = 0, binding = 4, std430) buffer CoverRows { uvec4 surfaceRows[]; };
 layout(set = 0, binding = 28) uniform usamplerBuffer coverTexels;
 layout(set = 0, binding = 23) uniform sampler3D shellNoise;
-layout(set = 0, binding = 25) uniform sampler3D shellField;
+// Of cells over the mesh's box: how deep they and their neighbours along x, y and both lie, see
+// surface_shell.comp. Two such faces cost drivers such as lavapipe half of a linear filter.
+layout(set = 0, binding = 25) uniform usamplerBuffer shellTexels;
+layout(set = 0, binding = 30, std430) buffer ShellRows { uvec4 shellRows[]; };
 
 ivec2 meshTexel(uint i) {
   return ivec2(uvec2(i % SURFACE_MESH_ROW, i / SURFACE_MESH_ROW));
@@ -34,6 +37,13 @@ uvec4 coverRow(uint at) {
     return texelFetch(coverTexels, int(at));
   }
   return surfaceRows[at];
+}
+
+vec4 shellFace(int at) {
+  if (TEXELS) {
+    return uintBitsToFloat(texelFetch(shellTexels, at));
+  }
+  return uintBitsToFloat(shellRows[at]);
 }
 
 SurfaceCover coverOf(uint at) {

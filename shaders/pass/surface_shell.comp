@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Depth under the surface of a mesh's cells, in cells and SHELL_OUTSIDE more, so that it is 0
-// beyond their box: sums along columns, then means over neighbours.
+// Depth under the surface of a mesh's cells, in cells and SHELL_OUTSIDE more, so that it is 0 in the
+// outermost: sums along columns, then means over neighbours.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"
@@ -9,6 +9,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 3) const bool MEANS = false;
 #include "surface_mesh.glsl"
 layout(set = 0, binding = 24, std430) buffer Cells { int cells[]; };
+layout(set = 0, binding = 30, std430) writeonly buffer ShellWords { uint shellWords[]; };
 
 float filledAt(ivec3 cell, ivec3 count, int all_) {
   bool there = all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, count));
@@ -43,7 +44,18 @@ void main() {
         }
       }
     }
-    int index = (at.z * count.y + at.y) * count.x + at.x;
-    cells[index] = floatBitsToInt(SHELL_OUTSIDE + shellDepth(sum / 64.0f));
+    uint index = uint((at.z * count.y + at.y) * count.x + at.x);
+    uint row = uint(count.x);
+    uint depth = floatBitsToUint(SHELL_OUTSIDE + shellDepth(sum / 64.0f));
+    shellWords[4u * index] = depth;
+    if (at.x > 0) {
+      shellWords[4u * (index - 1u) + 1u] = depth;
+    }
+    if (at.y > 0) {
+      shellWords[4u * (index - row) + 2u] = depth;
+    }
+    if (at.x > 0 && at.y > 0) {
+      shellWords[4u * (index - row - 1u) + 3u] = depth;
+    }
   }
 }

@@ -35,8 +35,9 @@ struct ShellDetail {
   vec3 shift;
   float softness;
   float cell;      // depths of the detail
-  int level;       // of the noise
-  int edge;        // its texels
+  vec3 cells;      // along the axes
+  int edge;        // texels of the noise's level
+  ivec3 first;     // where they begin
 };
 
 // Without the noise's.
@@ -46,12 +47,21 @@ ShellDetail shellDetail() {
   detail.shift = surface.detailShift.xyz;
   detail.softness = surface.detail.z;
   detail.cell = surface.detailShift.w;
+  detail.cells = vec3(surface.cells.xyz);
   return detail;
 }
 
-// In depths of the detail.
+// In depths of the detail, linear between the middles of cells. Beyond the outermost it is theirs.
 float shellDepthAt(ShellDetail detail, vec3 place) {
-  return (textureLod(shellField, place, 0.0f).x - SHELL_OUTSIDE) * detail.cell;
+  vec3 cell = clamp(place * detail.cells - 0.5f, vec3(0.0f), detail.cells - 1.001f);
+  vec3 low = floor(cell);
+  vec3 part = cell - low;
+  ivec3 first = ivec3(low);
+  ivec2 count = ivec2(detail.cells.xy);
+  int at = (first.z * count.y + first.y) * count.x + first.x;
+  vec4 face = mix(shellFace(at), shellFace(at + count.x * count.y), part.z);
+  vec2 column = mix(face.xz, face.yw, part.x);
+  return (mix(column.x, column.y, part.y) - SHELL_OUTSIDE) * detail.cell;
 }
 
 #ifdef SHELL_NOISE_COMPUTED
@@ -79,20 +89,23 @@ int shellLevel(ShellRay ray) {
 
 ShellDetail shellDetail(ShellRay ray) {
   ShellDetail detail = shellDetail();
-  detail.level = shellLevel(ray);
-  detail.edge = textureSize(shellNoise, 0).x >> detail.level;
+  int level = shellLevel(ray);
+  detail.edge = int(SHELL_NOISE) >> level;
+  // As detailBegin has it.
+  detail.first = level > 0 ? ivec3(int(SHELL_NOISE) - 2 * detail.edge, 0, SHELL_NOISE) : ivec3(0);
   return detail;
 }
 
-// Between the texels of a level, of which each has four corners.
+// Between the texels of a level, of which each has four corners; along z, the image's x, two of them
+// next to each other.
 float shellNoiseAt(ShellDetail detail, vec3 at) {
   vec3 texel = at * float(detail.edge) - 0.5f;
   vec3 low = floor(texel);
   vec3 part = texel - low;
-  ivec3 first = ivec3(low) & (detail.edge - 1);
-  ivec3 next = ivec3(first.xy, (first.z + 1) & (detail.edge - 1));
-  vec4 here = texelFetch(shellNoise, first, detail.level);
-  vec4 face = mix(here, texelFetch(shellNoise, next, detail.level), part.z);
+  ivec3 first = ivec3(low.zxy) & (detail.edge - 1);
+  ivec3 next = ivec3((first.x + 1) & (detail.edge - 1), first.yz);
+  vec4 here = texelFetch(shellNoise, detail.first + first, 0);
+  vec4 face = mix(here, texelFetch(shellNoise, detail.first + next, 0), part.z);
   vec2 column = mix(face.xz, face.yw, part.x);
   return mix(column.x, column.y, part.y);
 }

@@ -151,11 +151,11 @@ void useShell(WlkContext_T& c, SurfaceState& surface, double depth) {
   if (surface.shell.depth && cells == surface.shell.cells) {
     return;
   }
-  vk::Image made = makeShell(device, cells, c.surfaceTables);
+  vk::Buffer made = makeShell(device, cells, c.surfaceTables);
   if (surface.shell.depth) {
     Retired& old = c.retired.emplace_back(&c.memory);
     old.frame = c.frameIndex;
-    old.images[0] = std::move(surface.shell.depth);
+    old.buffers[0] = std::move(surface.shell.depth);
     c.forgetBindings();
   }
   surface.shell.depth = std::move(made);

@@ -51,8 +51,11 @@ void copyNoise(WlkContext_T& c, VkCommandBuffer commands, vk::Buffer& room) {
   for (uint32_t level = 0; level < DETAIL_LEVELS; ++level) {
     VkBufferImageCopy region{};
     region.bufferOffset = sizeof(uint32_t) * detailLevelBegin(level);
-    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, 1};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     const uint32_t edge = DETAIL_TEXELS >> level;
+    const auto [x, y, z] = detailBegin(level);
+    region.imageOffset = {static_cast<int32_t>(x), static_cast<int32_t>(y),
+                          static_cast<int32_t>(z)};
     region.imageExtent = {edge, edge, edge};
     copyInto(c.device->vk(), commands, tables.newNoise, tables.noise, region, false);
     ++c.updateCopies;
@@ -99,10 +102,10 @@ void retireSurface(WlkContext_T& c, SurfaceState& surface) {
   }
   Retired& mesh = c.retired.emplace_back(&c.memory);
   mesh.frame = c.frameIndex;
-  mesh.images[0] = std::move(surface.shell.depth);
-  mesh.images[1] = std::move(surface.phase);
-  mesh.images[2] = std::move(surface.vertices);
-  mesh.images[3] = std::move(surface.corners);
+  mesh.buffers[0] = std::move(surface.shell.depth);
+  mesh.images[0] = std::move(surface.phase);
+  mesh.images[1] = std::move(surface.vertices);
+  mesh.images[2] = std::move(surface.corners);
 }
 
 void uploadSurfaces(WlkContext_T& c, VkCommandBuffer commands) {

@@ -63,9 +63,9 @@ class Draft {
 VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t volumes,
                           uint32_t surfaces, uint32_t lights, bool froxels) {
   // Of a surface's set: what is neither uniform nor image nor texels is a storage buffer.
-  constexpr uint32_t SURFACE_IMAGES = 14;
+  constexpr uint32_t SURFACE_IMAGES = 13;
   constexpr uint32_t SURFACE_STORES = 4;
-  constexpr uint32_t SURFACE_TEXELS = 2;
+  constexpr uint32_t SURFACE_TEXELS = 3;
   static_assert(SURFACE_IMAGES + SURFACE_TEXELS <= vk::MOST_SAMPLED);
   constexpr uint32_t SURFACE_BUFFERS =
       vk::SURFACE_BINDING_COUNT - 2 - SURFACE_IMAGES - SURFACE_STORES - SURFACE_TEXELS;

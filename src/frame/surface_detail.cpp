@@ -71,14 +71,11 @@ std::array<uint32_t, 3> shellCells(const SurfaceState& s, double depth) {
   }
 }
 
-vk::Image makeShell(vk::Device& device, const std::array<uint32_t, 3>& cells,
-                    SurfaceTables& tables) {
-  vk::ImageInfo info;
-  info.type = VK_IMAGE_TYPE_3D;
-  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-  info.format = VK_FORMAT_R32_SFLOAT;
-  info.extent = {cells[0], cells[1], cells[2]};
-  vk::Image shell(device, info);
+vk::Buffer makeShell(vk::Device& device, const std::array<uint32_t, 3>& cells,
+                     SurfaceTables& tables) {
+  const VkDeviceSize rows = VkDeviceSize{cells[0]} * cells[1] * cells[2];
+  vk::Buffer shell(device, 4 * sizeof(float) * rows, vk::ROWS | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                   false);
   if (tables.noise) {
     return shell;
   }
@@ -88,14 +85,16 @@ vk::Image makeShell(vk::Device& device, const std::array<uint32_t, 3>& cells,
   vk::Buffer staging(device, faces.size() * sizeof faces[0], VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                      true);
   std::memcpy(staging.data(), faces.data(), staging.size());
+  vk::ImageInfo info;
+  info.type = VK_IMAGE_TYPE_3D;
+  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   info.format = VK_FORMAT_R8G8B8A8_UNORM;
-  info.extent = {DETAIL_TEXELS, DETAIL_TEXELS, DETAIL_TEXELS};
-  static_assert(interface_::SHELL_LEVELS == DETAIL_LEVELS);
-  info.levels = DETAIL_LEVELS;
+  info.extent = {DETAIL_IMAGE[0], DETAIL_IMAGE[1], DETAIL_IMAGE[2]};
+  static_assert(interface_::SHELL_LEVELS == DETAIL_LEVELS &&
+                interface_::SHELL_NOISE == DETAIL_TEXELS);
   vk::Image image(device, info);
-  constexpr VkBufferUsageFlags WORK = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+  constexpr VkBufferUsageFlags WORK =
+      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
   tables.cells = vk::Buffer(device, VkDeviceSize{2} * SHELL_ROOM * sizeof(float), WORK, false);
   tables.noise = std::move(image);
   tables.newNoise = std::move(staging);

@@ -27,7 +27,7 @@ struct SurfaceDetail {
 // Cells over a mesh's box, along the mesh's axes, two of them empty on each side.
 struct SurfaceShell {
   std::array<uint32_t, 3> cells{};
-  vk::Image depth;
+  vk::Buffer depth;      // faces of four cells, see surface_shell.comp
   uint64_t version = 0;  // of the vertices that it was made from; 0: of none
 };
 
@@ -35,9 +35,10 @@ constexpr uint32_t SHELL_ROOM = 1 << 19;  // at most
 
 // Cells for a depth of detail, m in the world, over the box of the latest positions.
 std::array<uint32_t, 3> shellCells(const SurfaceState& surface, double depth);
-// Image and room for it, and the noise if that is not there. Throws before anything has changed.
-vk::Image makeShell(vk::Device& device, const std::array<uint32_t, 3>& cells,
-                    SurfaceTables& tables);
+// Buffer and room for what it is made of, and the noise if that is not there. Throws before
+// anything has changed.
+vk::Buffer makeShell(vk::Device& device, const std::array<uint32_t, 3>& cells,
+                     SurfaceTables& tables);
 
 // A point `origin + x a + y b + z c` from the mesh's origin, world axes, to the cells; `width` as
 // SurfaceUniforms::detail has it. Nothing where there is no detail.

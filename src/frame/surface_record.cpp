@@ -64,7 +64,6 @@ class SurfaceRecorder {
         firstUse(*up_);
       }
       if (isDetailed(surface_)) {
-        c_.firstUse(surface_.shell.depth);
         recordShell(light);
       }
       recordLights(light);
@@ -120,10 +119,7 @@ class SurfaceRecorder {
     c_.orderShaders();
     c_.dispatch(c_.find(surfaceShellKey(true)), c_.pipelines.surfaceLayout(), nullptr, groups(x),
                 groups(y), stats, index_, z);
-    VkBufferImageCopy region{};
-    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    region.imageExtent = {x, y, z};
-    copyImage(cells, shell.depth, {&region, 1});
+    c_.orderShaders();
   }
 
   // Whether the map along a direction had changed; `which`: its uniforms and set.
@@ -373,9 +369,9 @@ class SurfaceRecorder {
     storage(vk::BIND_SURFACE_CELLS, detailed ? tables.cells : r.surfaceFaces);
     b.image(set, vk::BIND_SURFACE_NOISE, detailed ? tables.noise.view() : tables.source.view(),
             c_.pipelines.nearest(), READ);
-    b.image(set, vk::BIND_SURFACE_SHELL,
-            detailed ? surface_.shell.depth.view() : tables.source.view(), c_.pipelines.means(),
-            detailed ? VK_IMAGE_LAYOUT_GENERAL : READ);
+    const vk::Buffer& depth = detailed ? surface_.shell.depth : r.frameState;
+    b.texels(set, vk::BIND_SURFACE_SHELL, depth);
+    storage(vk::BIND_SURFACE_SHELL_ROWS, depth);
     bindSkyLookup(b, c_.pipelines, r, set, {vk::BIND_SURFACE_SKY_TABLE, vk::BIND_SURFACE_SKY_PEAK},
                   c_.in);
     c_.vk.CmdBindDescriptorSets(c_.commands, VK_PIPELINE_BIND_POINT_COMPUTE,

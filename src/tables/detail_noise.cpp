@@ -132,9 +132,9 @@ std::vector<uint32_t> detailFaces(const std::vector<uint8_t>& noise) {
   faces.reserve(noise.size());
   const uint8_t* level = noise.data();
   for (uint32_t edge = EDGE; edge > 0; edge /= 2) {
-    for (uint32_t z = 0; z < edge; ++z) {
-      for (uint32_t y = 0; y < edge; ++y) {
-        for (uint32_t x = 0; x < edge; ++x) {
+    for (uint32_t y = 0; y < edge; ++y) {
+      for (uint32_t x = 0; x < edge; ++x) {
+        for (uint32_t z = 0; z < edge; ++z) {
           const auto at = [&](uint32_t right, uint32_t down) {
             return uint32_t{level[texelAt((x + right) % edge, (y + down) % edge, z, edge)]};
           };

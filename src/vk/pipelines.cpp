@@ -232,15 +232,17 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
          {BIND_SURFACE_DEPTH, BIND_SURFACE_COLUMNS, BIND_SURFACE_FACES, BIND_SURFACE_SOURCE,
           BIND_SURFACE_CURVES, BIND_SURFACE_PHASE, BIND_SURFACE_SKY_TABLE, BIND_SURFACE_SKY_PEAK,
           BIND_SURFACE_UP_DEPTHS, BIND_SURFACE_UP_COLUMNS, BIND_SURFACE_UP_FACES,
-          BIND_SURFACE_SHARE, BIND_SURFACE_NOISE, BIND_SURFACE_SHELL}) {
+          BIND_SURFACE_SHARE, BIND_SURFACE_NOISE}) {
       surface[i].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     }
     for (const uint32_t i :
          {BIND_SURFACE_VERTICES, BIND_SURFACE_CORNERS, BIND_SURFACE_DEPTHS, BIND_SURFACE_SECONDS}) {
       surface[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     }
-    surface[BIND_SURFACE_COVER_TEXELS].descriptorType = texels;
-    surface[BIND_SURFACE_STATE_TEXELS].descriptorType = texels;
+    for (const uint32_t i :
+         {BIND_SURFACE_COVER_TEXELS, BIND_SURFACE_STATE_TEXELS, BIND_SURFACE_SHELL}) {
+      surface[i].descriptorType = texels;
+    }
     surfaceSet_ = makeSetLayout(device_, surface);
     surfaceLayout_ = makeLayout(device_, surfaceSet_);
     skySet_ = makeSetLayout(device_, sky);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <vector>
 
 namespace welkin {
 namespace {
@@ -105,10 +106,30 @@ TEST(DetailNoise, FacesHaveTheirFourCorners) {
         return y + 1 < edge ? k + edge : k - (edge - 1) * edge;
       };
       uint32_t corner = 0;
+      const uint32_t z = i / (edge * edge);
+      const uint32_t face = faces[begin + (y * edge + x) * edge + z];
       for (const uint32_t k : {i, right, below(i), below(right)}) {
-        ASSERT_EQ(faces[begin + i] >> (8 * corner) & 255U, noise()[begin + k]) << level << ' ' << i;
+        ASSERT_EQ(face >> (8 * corner) & 255U, noise()[begin + k]) << level << ' ' << i;
         ++corner;
       }
+    }
+  }
+}
+
+TEST(DetailNoise, LevelsHaveRoomOfTheirOwn) {
+  std::vector<bool> taken(size_t{DETAIL_IMAGE[0]} * DETAIL_IMAGE[1] * DETAIL_IMAGE[2]);
+  for (uint32_t level = 0; level < DETAIL_LEVELS; ++level) {
+    const auto begin = detailBegin(level);
+    const uint32_t edge = DETAIL_TEXELS >> level;
+    for (size_t k = 0; k < 3; ++k) {
+      ASSERT_LE(begin[k] + edge, DETAIL_IMAGE[k]) << level;
+    }
+    for (uint32_t i = 0; i < edge * edge * edge; ++i) {
+      const size_t row =
+          size_t{begin[2] + i / edge / edge} * DETAIL_IMAGE[1] + begin[1] + i / edge % edge;
+      const size_t at = row * DETAIL_IMAGE[0] + begin[0] + i % edge;
+      ASSERT_FALSE(taken[at]) << level << ' ' << i;
+      taken[at] = true;
     }
   }
 }

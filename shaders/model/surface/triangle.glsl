@@ -8,8 +8,8 @@
 // Each pixel sees vertices from itself: the sides of edges are then signs of areas between nearby
 // points, known to 1e-7 of them. Lines of the whole picture, which cost less, miss the vertices
 // where they should meet by 0.03 pixels in a picture of 960, and pixels fall between. All triangles
-// at a vertex see it at the same place, and those at an edge compute the same area but for its sign:
-// with no product fused into the difference (`precise`), a b - c d and c d - a b round alike.
+// at a vertex see it at the same place, and those at an edge compute the same area but for its
+// sign: with no product fused into the difference (`precise`), a b - c d and c d - a b round alike.
 
 vec3 fromPixel(vec3 vertex, vec2 pixel) {
   precise vec3 moved = vec3(vertex.x - pixel.x * vertex.z, vertex.y - pixel.y * vertex.z, vertex.z);
