@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Depth under the surface of a mesh's cells, in cells and SHELL_OUTSIDE more, so that it is 0 in the
-// outermost: sums along columns, then means over neighbours.
+// Depth under the surface of a mesh's cells, in cells and SHELL_OUTSIDE more, so that it is 0 in
+// the outermost: sums along columns, then means over neighbours.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common.glsl"

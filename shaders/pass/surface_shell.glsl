@@ -96,8 +96,8 @@ ShellDetail shellDetail(ShellRay ray) {
   return detail;
 }
 
-// Between the texels of a level, of which each has four corners; along z, the image's x, two of them
-// next to each other.
+// Between the texels of a level, of which each has four corners; along z, the image's x, two of
+// them next to each other.
 float shellNoiseAt(ShellDetail detail, vec3 at) {
   vec3 texel = at * float(detail.edge) - 0.5f;
   vec3 low = floor(texel);
