@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Light scattered at least twice that a surface cloud sends to the eye, from light maps and the
-// source's image: the rule of model/surface with its fetches, two of the maps and one of the
-// source per set. Needs model.glsl. Vectors are in the light's frame, z towards the light.
+// source's image: the rule of model/surface with its fetches, of both maps at whole levels for all
+// sets but the last, of the source per set. Needs model.glsl. Vectors are in the light's frame, z
+// towards the light.
 //
 // columns: coverage, through (m), x and y of the lit face's normal; faces: z of that normal, x and
 // y of the shaded face's, depth of the lit face along the light (m); both with mipmaps of means

@@ -42,7 +42,8 @@ Picture pictureFromInside() {
 
 // Half resolution, as the levels choose it: its pixels' rays are rows, like what the view's volumes
 // and surfaces leave. A surface in front of a volume and another behind both, so that each reads
-// what the ones before have left; all of them in fog over the ground.
+// what the ones before have left; all of them in fog over the ground. The nearer one has detail,
+// whose cells are rows as well.
 Picture pictureOf(const SceneOptions& options) {
   EngineScene scene(options);
   scene.setSky();
@@ -50,7 +51,12 @@ Picture pictureOf(const SceneOptions& options) {
   scene.setFog(1e-5f, 1000);
   scene.addBall(0.002f);
   const WlkMedium medium = scene.addHenyeyGreenstein(0.8f);
-  addSurface(scene, support::sphereMesh(3), medium, 0.01f, {300, 300, 300}, {-500, 1700, -3000});
+  const WlkSurface near = addSurface(scene, support::sphereMesh(3), medium, 0.01f, {300, 300, 300},
+                                     {-500, 1700, -3000});
+  auto detail = make<WlkSurfaceDetail>();
+  detail.depth = 60;
+  detail.size = 180;
+  check(wlkSetSurfaceDetail(scene.context, near, &detail));
   addSurface(scene, support::torusMesh(), medium, 0.01f, {900, 900, 900}, {600, 1300, -7000});
   scene.setCamera({0, 1400, 0}, 0, 0);
   return drawn(scene);

@@ -83,7 +83,7 @@ WLK_API WlkResult wlkDestroySurface(WlkContext context, WlkSurface surface);
 WLK_API WlkResult wlkSetSurfaceTransform(WlkContext context, WlkSurface surface,
                                          const double worldFromSurface[12]);
 /** Gives a surface detail, or other detail; null takes it away. The first detail of a context takes
- * 6.6 MB of device memory and some 0.1 s, each up to 2 MB: cells as fine as the depth needs in the
+ * 17 MB of device memory and some 0.1 s, each up to 8.4 MB: cells as fine as the depth needs in the
  * mesh as it is now. Set it again when positions or transform have made the mesh twice as large.
  * [C] Errors: INVALID_ARGUMENT (depth, size, softness, offset), OUT_OF_*. */
 WLK_API WlkResult wlkSetSurfaceDetail(WlkContext context, WlkSurface surface,
