@@ -15,7 +15,7 @@ layout(set = 0, binding = 4, std430) buffer CoverRows { uvec4 surfaceRows[]; };
 layout(set = 0, binding = 28) uniform usamplerBuffer coverTexels;
 layout(set = 0, binding = 23) uniform sampler3D shellNoise;
 // Of cells over the mesh's box: how deep they and their neighbours along x, y and both lie, see
-// surface_shell.comp. Two such faces cost drivers such as lavapipe half of a linear filter.
+// surface_shell.comp. Two such faces cost drivers such as lavapipe less than a linear filter.
 layout(set = 0, binding = 25) uniform usamplerBuffer shellTexels;
 layout(set = 0, binding = 30, std430) buffer ShellRows { uvec4 shellRows[]; };
 

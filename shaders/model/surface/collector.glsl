@@ -30,7 +30,7 @@ real footprintLevel(real sigma, real texel) {
 }
 
 // Quotients by what several have in common are products with its inverse, which compilers then make
-// once: a surface's light was a third divisions.
+// once.
 //
 // Mean over the cloud of what a mipmap weighted with its coverage holds: `sum` over all of the
 // footprint, [B08] 7 as Z / A; 0 where there is no cloud.
