@@ -59,8 +59,10 @@ layout(set = 0, binding = 29) uniform usamplerBuffer frameTexels;
 #include "surface_place.glsl"
 #include "surface_shell.glsl"
 
-// Along a chord, of equal opacity.
-const int STRETCHES = 4;
+// Along a chord, and what they end with of its opacity: thinner ones behind, of which the last one
+// is the longest. Four of the same opacity were as far off.
+const int STRETCHES = 3;
+const float STRETCH_ENDS[STRETCHES] = {0.35f, 0.8f, 1.0f};
 // At the detail on the way to the light: from where the cloud begins, and from the point whose
 // light stands for all. Errors: docs/results/surface-looks.csv.
 const int LOOKS_FIRST = 2;
@@ -197,7 +199,7 @@ void main() {
     smooth_ = phaseAt(0, direction) * surface.albedo.xyz;
     peak = phaseAt(1, direction) * surface.albedo.xyz;
   }
-  // Stretches of equal opacity of what detail leaves; in [B08] of the whole chord.
+  // Stretches of what detail leaves; in [B08] of the whole chord.
 #ifdef SHELL_NOISE_COMPUTED
   float cut = withoutPeak * inside.chord;
   float first_ = 0.0f;
@@ -226,8 +228,8 @@ void main() {
     shadeNear -= lost.x;
   }
   float perSample = 1.0f / max(sample_, 1.0e-20f);
-  for (int i = 1; i <= STRETCHES; ++i) {
-    float end = chordDepthOf(float(i) / float(STRETCHES), opacity, cut) * thin;
+  for (int i = 0; i < STRETCHES; ++i) {
+    float end = chordDepthOf(STRETCH_ENDS[i], opacity, cut) * thin;
     float length_ = max(end - begin, 0.0f);
     AirAt air = airAt(nodes, pointAt(inside, first_ + begin + 0.5f * length_));
 #ifdef SHELL_NOISE_COMPUTED
@@ -264,7 +266,9 @@ void main() {
 #endif
   bool first = (slice.flags & SLICE_FIRST_VOLUME) != 0u;
   vec3 scattered = vec3(0.0f);
-  vec4 front = first ? vec4(0.0f, 0.0f, 0.0f, 1.0f) : stateAt(index);
+  // Drivers such as lavapipe read either way: of the first, which has nothing in front, one row.
+  vec4 before = stateAt(first ? 0u : index);
+  vec4 front = first ? vec4(0.0f, 0.0f, 0.0f, 1.0f) : before;
   if (LIGHT_ENABLED || AMBIENT) {
     AirAt air = airAt(nodes, distance_);
     if (LIGHT_ENABLED) {
@@ -293,8 +297,8 @@ void main() {
     }
   }
   if (DISTANCE) {
-    vec2 before = first ? vec2(0.0f) : distances[index].xy;
-    distances[index] = vec4(before + front.w * hidden, hidden);
+    vec2 nearer = first ? vec2(0.0f) : distances[index].xy;
+    distances[index] = vec4(nearer + front.w * hidden, hidden);
   }
   frameState[index] = vec4(front.xyz + front.w * sum + scattered, front.w * through);
 }
