@@ -52,9 +52,10 @@ struct SurfaceCover {
 // and the chord without the nearest of either. Behind the words of all pixels of the picture's
 // rectangle each has one more: ~ the depth at which rays end; 0 where they never do.
 //
-// What the shading leaves in their place for light scattered more than once: what detail takes of
-// the metres between a point on the pixel's ray and the light, green and blue of what that point's
-// light counts in the picture, and how far it is from the eye, m; red in the further word.
+// What the shading leaves in their place for light scattered more than once: what the light of a
+// point on the pixel's ray counts in the picture (surface_point.glsl), what detail takes of the
+// metres between it and the light, and how far it is from the eye, m. Then second pixels keep that
+// light there for those around, RGB, and the distance; 0 where the surface does not cover them.
 const uint SURFACE_COVER_WORDS = 4u;
 const uint SURFACE_FRONT = 0u;
 const uint SURFACE_LEAVE = 1u;

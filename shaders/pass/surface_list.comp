@@ -30,10 +30,9 @@ const uint CELL = SURFACE_CELL;
 const uint FOURTHS = HALF ? 0x0001u : 0xffffu;
 const uint SECONDS = 0x0504u;
 
-bool surfaceCovers(ivec2 pixel, ivec4 rect) {
-  bool inside = all(greaterThanEqual(pixel, rect.xy)) && all(lessThan(pixel, rect.zw));
-  ivec2 at = inside ? pixel - rect.xy : ivec2(0);
-  return inside && coverOf(uint(at.y * (rect.z - rect.x) + at.x)).chord > 0;
+bool surfaceCovers(ivec2 pixel) {
+  bool inside = inRect(pixel);
+  return inside && coverOf(inside ? coverIndex(pixel) : 0u).chord > 0;
 }
 
 // What a pixel without the surface is.
@@ -68,12 +67,11 @@ void main() {
   ivec2 corner = surface.shade.xy / int(CELL) * int(CELL) + ivec2(gl_GlobalInvocationID.xy * CELL);
   uint covered = 0u;
   uint others = 0u;
-  ivec4 rect = surface.rect;
   ivec4 shade = surface.shade;
   for (uint bit = 0u; bit < CELL * CELL; ++bit) {
     ivec2 pixel = pixelOf(corner, bit);
     if (all(greaterThanEqual(pixel, shade.xy)) && all(lessThan(pixel, shade.zw))) {
-      bool mine = surfaceCovers(pixel, rect);
+      bool mine = surfaceCovers(pixel);
       covered |= uint(mine) << bit;
       others |= uint(!mine) << bit;
     }
@@ -83,7 +81,10 @@ void main() {
     list(corner, covered & SECONDS, SURFACE_LIST_SECONDS);
     list(corner, covered & ~(FOURTHS | SECONDS), SURFACE_LIST_OTHERS);
     for (uint seconds = others & (FOURTHS | SECONDS); seconds != 0u; seconds &= seconds - 1u) {
-      imageStore(secondLight, pixelOf(corner, uint(findLSB(seconds))) >> 1, vec4(0.0f));
+      ivec2 pixel = pixelOf(corner, uint(findLSB(seconds)));
+      if (inRect(pixel)) {
+        surfaceRows[coverIndex(pixel)] = uvec4(0u);
+      }
     }
   }
   while (others != 0u) {

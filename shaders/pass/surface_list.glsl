@@ -2,10 +2,11 @@
 // The lists of pixels that a surface covers, see SURFACE_LIST_HEAD. Before: surface_mesh.glsl,
 // `frame`.
 layout(set = 0, binding = 26, std430) buffer List { uint listed[]; };
-// Of second pixels along both axes: light scattered more than once, and how far away its point is;
-// 0 where the surface does not cover them. Loads of texels cost drivers such as lavapipe less than
-// fetches, and much less than words of buffers.
-layout(set = 0, binding = 27, rgba32f) uniform image2D secondLight;
+
+// Whether a pixel has a row of the cover.
+bool inRect(ivec2 pixel) {
+  return all(greaterThanEqual(pixel, surface.rect.xy)) && all(lessThan(pixel, surface.rect.zw));
+}
 
 uint coverIndex(ivec2 pixel) {
   return uint(pixel.y - surface.rect.y) * uint(surface.rect.z - surface.rect.x) +

@@ -17,7 +17,7 @@ layout(set = 0, binding = 23) uniform sampler3D shellNoise;
 // Of cells over the mesh's box: how deep they and their neighbours along x, y and both lie, see
 // surface_shell.comp. Two such faces cost drivers such as lavapipe less than a linear filter.
 layout(set = 0, binding = 25) uniform usamplerBuffer shellTexels;
-layout(set = 0, binding = 30, std430) buffer ShellRows { uvec4 shellRows[]; };
+layout(set = 0, binding = 27, std430) buffer ShellRows { uvec4 shellRows[]; };
 
 ivec2 meshTexel(uint i) {
   return ivec2(uvec2(i % SURFACE_MESH_ROW, i / SURFACE_MESH_ROW));

@@ -22,6 +22,7 @@ SliceConstants slice = sliceBlock;
 
 #include "surface_mesh.glsl"
 #include "surface_list.glsl"
+#include "surface_point.glsl"
 layout(set = 0, binding = 29) uniform usamplerBuffer frameTexels;
 #include "frame_state.glsl"
 #include "ray.glsl"
@@ -47,12 +48,13 @@ void main() {
     return;
   }
   uint at = coverIndex(pixel);
-  vec4 point = uintBitsToFloat(coverRow(at));
-  vec3 weight = vec3(uintBitsToFloat(furtherWord(at)), point.yz);
+  uvec4 row = coverRow(at);
+  vec3 weight = surfacePointWeight(row);
+  float range = uintBitsToFloat(row.w);
   vec3 direction = pixelDirection(frame, vec2(pixel));
-  vec3 light = scatteredAt(direction, point.w, point.x);
+  vec3 light = scatteredAt(direction, range, uintBitsToFloat(row.z));
   if (HALF && slice.firstSlab != SURFACE_LIST_OWN) {
-    imageStore(secondLight, pixel >> 1, vec4(light, point.w));
+    surfaceRows[at] = floatBitsToUint(vec4(light, range));
   }
   uint index = uint(pixel.y) * uint(frame.viewport.x) + uint(pixel.x);
   frameState[index].xyz = stateAt(index).xyz + light * weight;

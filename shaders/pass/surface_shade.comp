@@ -50,6 +50,7 @@ layout(set = 0, binding = 29) uniform usamplerBuffer frameTexels;
 #include "surface_list.glsl"
 #include "../interface/sky_table.glsl"
 #include "surface_spread.glsl"
+#include "surface_point.glsl"
 #include "ray.glsl"
 #include "fog_curve.glsl"
 #include "air_column.glsl"
@@ -82,12 +83,6 @@ Inside insideOf(SurfaceCover cover, float metre, float first) {
   inside.back = max(inside.back, inside.front);
   inside.leave = clamp(inside.leave, inside.front, inside.back);
   return inside;
-}
-
-// In the place of the cover, all of which goes into what is left.
-void leave(uint index, float lost, float range, vec3 weight) {
-  surfaceRows[index] = floatBitsToUint(vec4(lost, weight.yz, range));
-  surfaceWords[coverFurther(index)] = floatBitsToUint(weight.x);
 }
 
 // For a surface's detail.
@@ -273,22 +268,23 @@ void main() {
     AirAt air = airAt(nodes, distance_);
     if (LIGHT_ENABLED) {
       vec3 weight = front.w * oneMinusExp(depth) * air.light * air.transmittance;
+      // In the place of the cover: stores cost drivers such as lavapipe the more the more there are.
       bool own = true;
+      bool second = HALF && slice.firstSlab == SURFACE_LIST_SECONDS;
+      uvec4 row = surfacePointRow(weight, lost.y, distance_);
       if (HALF) {
-        bool second = slice.firstSlab == SURFACE_LIST_SECONDS;
-        vec4 between = lightBetween(pixel, distance_, second ? 4 : 2);
+        vec4 between = lightBetween(pixel, at, distance_, second ? 4 : 2);
         // What nothing is seen of needs no light, but where others may take it on.
         bool unseen = max(max(weight.x, weight.y), weight.z) == 0.0f;
         own = slice.firstSlab == SURFACE_LIST_FOURTHS || (between.w == 0.0f && (second || !unseen));
         scattered = between.w == 0.0f || own ? vec3(0.0f) : between.xyz * weight;
+        row = own ? row : floatBitsToUint(vec4(between.xyz, distance_));
         if (own) {
           listOwn(pixel, slice.firstSlab);
-        } else if (second) {
-          imageStore(secondLight, pixel >> 1, vec4(between.xyz, distance_));
         }
       }
-      if (own) {
-        leave(at, lost.y, distance_, weight);
+      if (own || second) {
+        surfaceRows[at] = row;
       }
     }
     if (AMBIENT) {

@@ -9,7 +9,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 3) const bool MEANS = false;
 #include "surface_mesh.glsl"
 layout(set = 0, binding = 24, std430) buffer Cells { int cells[]; };
-layout(set = 0, binding = 30, std430) writeonly buffer ShellWords { uint shellWords[]; };
+layout(set = 0, binding = 27, std430) writeonly buffer ShellWords { uint shellWords[]; };
 
 float filledAt(ivec3 cell, ivec3 count, int all_) {
   bool there = all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, count));

@@ -19,13 +19,11 @@ struct Around {
   bool there;
 };
 
-// At one of the pixels that are `apart`; 0 where there is none.
-vec4 lightOf(ivec2 pixel, int apart) {
-  bool inside = all(greaterThanEqual(pixel, surface.rect.xy)) &&
-                all(lessThan(pixel, surface.rect.zw));
-  // Never one that a second pixel's invocation may be writing.
-  ivec2 at = inside ? pixel : surface.rect.xy & ~(apart - 1);
-  vec4 light = imageLoad(secondLight, at >> 1);
+// At one of the pixels around; 0 where there is none. `own`: the row of the pixel itself, which no
+// other invocation writes.
+vec4 lightOf(ivec2 pixel, uint own) {
+  bool inside = inRect(pixel);
+  vec4 light = uintBitsToFloat(coverRow(inside ? coverIndex(pixel) : own));
   return inside ? light : vec4(0.0f);
 }
 
@@ -44,28 +42,28 @@ vec3 unevenness(vec4 before, vec4 low, vec4 high, vec4 after) {
   return min(before.w, after.w) > 0.0f ? most : vec3(3.0e38f);
 }
 
-// At a pixel whose point is at `range`, between those that are `apart` pixels apart, a power of 2:
+// At a pixel with the row `own` whose point is at `range`, between those that are `apart` pixels apart, a power of 2:
 // w is 0 where it has to have its own.
-vec4 lightBetween(ivec2 pixel, float range, int apart) {
+vec4 lightBetween(ivec2 pixel, uint own, float range, int apart) {
   // Of 2 or, between two rows, 4; in the other case some are the same. Masks: lavapipe divides
   // integers lane by lane, which took 2 % of a surface's frame.
   ivec2 low = pixel & ~(apart - 1);
   ivec2 high = (pixel + apart - 1) & ~(apart - 1);
   ivec2 ahead = high - low;
-  vec4 a = lightOf(low, apart);
-  vec4 b = lightOf(ivec2(high.x, low.y), apart);
-  vec4 c = lightOf(ivec2(low.x, high.y), apart);
-  vec4 d = lightOf(high, apart);
+  vec4 a = lightOf(low, own);
+  vec4 b = lightOf(ivec2(high.x, low.y), own);
+  vec4 c = lightOf(ivec2(low.x, high.y), own);
+  vec4 d = lightOf(high, own);
   Around around = Around(vec4(0.0f), vec4(3.0e38f), vec4(0.0f), true);
   look(around, a);
   look(around, b);
   look(around, c);
   look(around, d);
   // Along both diagonals, or along the row or column twice; and of one diagonal to the other.
-  vec3 one = unevenness(lightOf(low - ahead, apart), a, d, lightOf(high + ahead, apart));
+  vec3 one = unevenness(lightOf(low - ahead, own), a, d, lightOf(high + ahead, own));
   vec3 other =
-      unevenness(lightOf(ivec2(low.x - ahead.x, high.y + ahead.y), apart), c, b,
-                 lightOf(ivec2(high.x + ahead.x, low.y - ahead.y), apart));
+      unevenness(lightOf(ivec2(low.x - ahead.x, high.y + ahead.y), own), c, b,
+                 lightOf(ivec2(high.x + ahead.x, low.y - ahead.y), own));
   vec3 uneven = max(max(one, other), abs(a.xyz + d.xyz - b.xyz - c.xyz));
   float reach = SAME_RANGE / max(surface.optics.z, 1.0e-20f);
   float off = abs(range - 0.25f * around.sum.w);

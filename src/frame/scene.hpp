@@ -392,7 +392,6 @@ struct ViewResources {
   vk::Buffer surfaceFaces;
   vk::Buffer surfaceLevels;
   vk::Buffer surfaceList;    // pixels that it covers
-  vk::Image surfaceSeconds;  // what second pixels see of it
   VkDeviceSize surfaceStride = 0;
   VkDeviceSize surfaceOffset = 0;
   uint32_t surfaceCapacity = 0;

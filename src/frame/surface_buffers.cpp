@@ -44,14 +44,6 @@ void makeSurfaces(vk::Device& device, const WlkViewInfo& info, const SliceQualit
   r.surfaceCover = vk::Buffer(device, bytes, vk::ROWS | CLEARED, false);
   r.surfaceList = vk::Buffer(device, surfaceListBytes(info, quality),
                              CLEARED | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, false);
-  vk::ImageInfo seconds;
-  seconds.format = VK_FORMAT_R32G32B32A32_SFLOAT;
-  seconds.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
-  seconds.extent = {1, 1, 1};
-  if (quality.halfVolumes) {
-    seconds.extent = {info.width / 2 + 1, info.height / 2 + 1, 1};
-  }
-  r.surfaceSeconds = vk::Image(device, seconds);
   r.surfaceFaces = vk::Buffer(device, texels * sizeof(SurfaceFaces), CLEARED, false);
   r.surfaceLevels =
       vk::Buffer(device, VkDeviceSize{32} * surfaceMapTexels(size),

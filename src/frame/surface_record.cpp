@@ -58,7 +58,6 @@ class SurfaceRecorder {
     eye.reason = planned_.eyeReason;
     index_ = static_cast<uint32_t>(passes().size());
     if (planned_.drawn) {
-      c_.firstUse(c_.view.resources.surfaceSeconds);
       firstUse(light_);
       if (up_ != nullptr) {
         firstUse(*up_);
@@ -340,8 +339,6 @@ class SurfaceRecorder {
     b.image(set, vk::BIND_SURFACE_DEPTHS, light.depths.view(), VK_NULL_HANDLE,
             VK_IMAGE_LAYOUT_GENERAL);
     b.image(set, vk::BIND_SURFACE_UP_DEPTHS, up.depths.view(), c_.pipelines.nearest(),
-            VK_IMAGE_LAYOUT_GENERAL);
-    b.image(set, vk::BIND_SURFACE_SECONDS, r.surfaceSeconds.view(), VK_NULL_HANDLE,
             VK_IMAGE_LAYOUT_GENERAL);
     storage(vk::BIND_SURFACE_FACE_IDS, r.surfaceFaces);
     storage(vk::BIND_SURFACE_LEVELS, r.surfaceLevels);

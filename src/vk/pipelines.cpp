@@ -236,7 +236,7 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
       surface[i].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     }
     for (const uint32_t i :
-         {BIND_SURFACE_VERTICES, BIND_SURFACE_CORNERS, BIND_SURFACE_DEPTHS, BIND_SURFACE_SECONDS}) {
+         {BIND_SURFACE_VERTICES, BIND_SURFACE_CORNERS, BIND_SURFACE_DEPTHS}) {
       surface[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     }
     for (const uint32_t i :
