@@ -3,9 +3,10 @@
 // the mean of those around where they are alike, or change evenly, and the pixel's own point lies
 // among theirs. Before: surface_list.glsl, DETAIL.
 
-// Of what second pixels around have, in parts of the most, and twice of fourth ones: the mean then
-// misses a step among them by half of it, and by three quarters where one of four differs. Detail,
-// whose march is 1.2 % off itself, hides more.
+// What second pixels around may differ by, in parts of the most, or a step among them that is not
+// in what lies further off; of fourth ones half of it. The mean then misses a step by half of it,
+// by three quarters where one of four differs, and by an eighth more where it follows a curve.
+// Detail, whose march is 1.2 % off itself, hides more.
 const float ALIKE = DETAIL ? 0.1f : 0.07f;
 // The pixel's own point may lie so far from the mean of theirs: in free paths of the canonical
 // cloud, and in parts of what lies between theirs. At an edge in front of something it is either's.
@@ -60,17 +61,22 @@ vec4 lightBetween(ivec2 pixel, uint own, float range, int apart) {
   look(around, c);
   look(around, d);
   // Along both diagonals, or along the row or column twice; and of one diagonal to the other.
-  vec3 one = unevenness(lightOf(low - ahead, own), a, d, lightOf(high + ahead, own));
-  vec3 other =
-      unevenness(lightOf(ivec2(low.x - ahead.x, high.y + ahead.y), own), c, b,
-                 lightOf(ivec2(high.x + ahead.x, low.y - ahead.y), own));
-  vec3 uneven = max(max(one, other), abs(a.xyz + d.xyz - b.xyz - c.xyz));
+  vec4 beforeA = lightOf(low - ahead, own);
+  vec4 afterD = lightOf(high + ahead, own);
+  vec4 beforeC = lightOf(ivec2(low.x - ahead.x, high.y + ahead.y), own);
+  vec4 afterB = lightOf(ivec2(high.x + ahead.x, low.y - ahead.y), own);
+  vec3 uneven = max(max(unevenness(beforeA, a, d, afterD), unevenness(beforeC, c, b, afterB)),
+                    abs(a.xyz + d.xyz - b.xyz - c.xyz));
   float reach = SAME_RANGE / max(surface.optics.z, 1.0e-20f);
   float off = abs(range - 0.25f * around.sum.w);
   // Further apart, what they miss between them is larger: half of the bounds.
   float part = 2.0f / float(apart);
-  vec3 differ = min(around.most.xyz - around.least.xyz, uneven);
-  bool alike = all(lessThanEqual(differ, part * ALIKE * around.most.xyz)) &&
-               off <= part * (reach + SAME_PART * (around.most.w - around.least.w));
-  return vec4(0.25f * around.sum.xyz, around.there && alike ? 1.0f : 0.0f);
+  vec3 most = part * ALIKE * around.most.xyz;
+  bool even = all(lessThanEqual(uneven, most));
+  bool alike = even || all(lessThanEqual(around.most.xyz - around.least.xyz, most));
+  bool near = off <= part * (reach + SAME_PART * (around.most.w - around.least.w));
+  // Means lie under what is round: of cubics, a 32nd of what those further off have less.
+  vec3 outer = beforeA.xyz + afterD.xyz + beforeC.xyz + afterB.xyz;
+  vec3 rise = even ? 0.03125f * (around.sum.xyz - outer) : vec3(0.0f);
+  return vec4(0.25f * around.sum.xyz + rise, around.there && near && alike ? 1.0f : 0.0f);
 }
