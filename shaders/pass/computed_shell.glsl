@@ -7,8 +7,6 @@
 
 const int SHELL_STEPS = 1024;
 const float SHELL_CORE = 1.0f / 3.0f;  // a step there, in depths of the detail
-// Optical depth behind which nothing counts: an 8 bit picture's last step.
-const float SHELL_HIDDEN = 5.5f;
 const float SHELL_DENSE = 0.5f;  // rho_0
 
 float voxelOf(SurfaceUniforms s) {

@@ -4,7 +4,7 @@
 // most, 4e-6 of which they miss; then two floats.
 
 uvec4 surfacePointRow(vec3 weight, float lost, float range) {
-  // 2^-103 and less are 0.
+  // Below 2^-103 they miss more, from 2^-121 on all.
   uint exponent =
       max(floatBitsToUint(max(max(weight.x, weight.y), weight.z)) >> 23, 24u);  // + 127
   float scale = uintBitsToFloat((271u - exponent) << 23);

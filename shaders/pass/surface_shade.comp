@@ -60,8 +60,8 @@ layout(set = 0, binding = 29) uniform usamplerBuffer frameTexels;
 #include "surface_place.glsl"
 #include "surface_shell.glsl"
 
-// Along a chord, and what they end with of its opacity: thinner ones behind, of which the last one
-// is the longest. Four of the same opacity were as far off.
+// Along a chord, and what of its opacity lies in front of their ends: four of the same opacity are
+// as far off (docs/results/surface-numerics.csv).
 const int STRETCHES = 3;
 const float STRETCH_ENDS[STRETCHES] = {0.35f, 0.8f, 1.0f};
 // At the detail on the way to the light: from where the cloud begins, and from the point whose
@@ -261,14 +261,15 @@ void main() {
 #endif
   bool first = (slice.flags & SLICE_FIRST_VOLUME) != 0u;
   vec3 scattered = vec3(0.0f);
-  // Drivers such as lavapipe read either way: of the first, which has nothing in front, one row.
-  vec4 before = stateAt(first ? 0u : index);
+  // Drivers such as lavapipe read either way: the first, which has nothing in front, one row, which
+  // lies behind those of all pixels and is never written.
+  vec4 before = stateAt(first ? uint(frame.viewport.x) * uint(frame.viewport.y) : index);
   vec4 front = first ? vec4(0.0f, 0.0f, 0.0f, 1.0f) : before;
   if (LIGHT_ENABLED || AMBIENT) {
     AirAt air = airAt(nodes, distance_);
     if (LIGHT_ENABLED) {
       vec3 weight = front.w * oneMinusExp(depth) * air.light * air.transmittance;
-      // In the place of the cover: stores cost drivers such as lavapipe the more the more there are.
+      // In the place of the cover, in one store: drivers such as lavapipe run each for all.
       bool own = true;
       bool second = HALF && slice.firstSlab == SURFACE_LIST_SECONDS;
       uvec4 row = surfacePointRow(weight, lost.y, distance_);

@@ -64,6 +64,9 @@ float shellDepthAt(ShellDetail detail, vec3 place) {
   return (mix(column.x, column.y, part.y) - SHELL_OUTSIDE) * detail.cell;
 }
 
+// Optical depth behind which nothing counts: an 8 bit picture's last step.
+const float SHELL_HIDDEN = 5.5f;
+
 #ifdef SHELL_NOISE_COMPUTED
 #include "computed_shell.glsl"
 #else
@@ -74,8 +77,6 @@ const float SHELL_FINEST = 0.25f;  // steps in depths of the detail
 const float SHELL_COARSEST = 1.0f / 3.0f;
 const float SHELL_CORE = 1.0f;  // where the middle of the step is in the core, without detail
 const float SHELL_BACK = 0.25f;
-// Optical depth behind which nothing counts: an 8 bit picture's last step.
-const float SHELL_HIDDEN = 5.5f;
 
 // Level of the noise that a ray reads, the same for all steps. The finer of two: steps among what
 // they miss are nearer to the truth than what they would blur. Wider pixels have means about as

@@ -43,8 +43,8 @@ vec3 unevenness(vec4 before, vec4 low, vec4 high, vec4 after) {
   return min(before.w, after.w) > 0.0f ? most : vec3(3.0e38f);
 }
 
-// At a pixel with the row `own` whose point is at `range`, between those that are `apart` pixels apart, a power of 2:
-// w is 0 where it has to have its own.
+// At a pixel with the row `own` whose point is at `range`, between those that are `apart` pixels
+// apart, a power of 2: w is 0 where it has to have its own.
 vec4 lightBetween(ivec2 pixel, uint own, float range, int apart) {
   // Of 2 or, between two rows, 4; in the other case some are the same. Masks: lavapipe divides
   // integers lane by lane, which took 2 % of a surface's frame.

@@ -64,7 +64,7 @@ VkDescriptorPool makePool(const vk::Device& device, uint32_t slots, uint32_t vol
                           uint32_t surfaces, uint32_t lights, bool froxels) {
   // Of a surface's set: what is neither uniform nor image nor texels is a storage buffer.
   constexpr uint32_t SURFACE_IMAGES = 13;
-  constexpr uint32_t SURFACE_STORES = 4;
+  constexpr uint32_t SURFACE_STORES = 3;
   constexpr uint32_t SURFACE_TEXELS = 3;
   static_assert(SURFACE_IMAGES + SURFACE_TEXELS <= vk::MOST_SAMPLED);
   constexpr uint32_t SURFACE_BUFFERS =
@@ -353,7 +353,8 @@ void prepareView(vk::Device& device, vk::Pipelines& pipelines, ViewState& view,
   const VkDeviceSize pixels = VkDeviceSize{info.width} * info.height;
   const uint32_t layers = volumeCount + features.surfaces;
   const VkDeviceSize stateBytes = layers > 0 ? pixels * 16 : 16;
-  r.frameState = vk::Buffer(device, stateBytes, vk::ROWS, false);
+  constexpr VkDeviceSize NO_PIXELS_ROW = 16;  // surface_shade.comp
+  r.frameState = vk::Buffer(device, stateBytes + NO_PIXELS_ROW, vk::ROWS, false);
   if (view.volumeDistance) {
     r.distances = vk::Buffer(device, stateBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, false);
   }

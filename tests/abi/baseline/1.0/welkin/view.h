@@ -158,8 +158,8 @@ enum {
    *  and ends at the same surface; others have their own.
    *  Where all slabs' light is kept (see batchSize); never of air, fog, froxels. Of surfaces light
    *  scattered more than once alone, in every fourth, then second pixel along both axes; those
-   *  between take on the mean of what is around where that is alike within 2.5, then 5 % and as
-   *  far away. */
+   *  between take on the mean of what is around where that is alike or changes evenly, within
+   *  3.5, then 7 % (with detail 5, then 10 %), and as far away. */
   WLK_VOLUME_RESOLUTION_HALF = 2
 };
 
