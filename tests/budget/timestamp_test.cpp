@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "support/shadow_map_scene.hpp"
+#include "support/surface_scene.hpp"
 
 namespace welkin::test {
 namespace {
@@ -56,6 +57,35 @@ TEST(Timestamps, OfCloudShadowsThatPassTheirLastBitAreMeasured) {
   fill(shadow.scene);
   EXPECT_EQ(shadow.record().counts.timestamps, 2u);
   EXPECT_EQ(shadow.record().state.gpuTime_ns, SpyDevice::TICK);
+}
+
+// All that a surface can ask for in one frame is as much as queries have room for
+// (SURFACE_DISPATCHES of frame/surface_record.hpp); the layer reports more.
+TEST(Timestamps, OfASurfaceThatAsksForEverythingHaveRoom) {
+  constexpr uint32_t MOST = 32;
+  SceneOptions options;
+  options.level = WLK_QUALITY_HIGH;
+  options.volumeResolution = WLK_VOLUME_RESOLUTION_HALF;
+  options.ambient = true;
+  EngineScene scene(options);
+  scene.setSky();
+  scene.setSun(30, 20);
+  const WlkSurface surface = addSurface(scene, support::boxMesh(), scene.addMedium(), 0.01f,
+                                        {900, 900, 900}, {0, 1500, -5000});
+  auto detail = make<WlkSurfaceDetail>();
+  detail.depth = 120;
+  detail.size = 500;
+  check(wlkSetSurfaceDetail(scene.context, surface, &detail));
+  check(wlkPrepare(scene.context));
+  const uint64_t written = scene.renderFrame().view.timestamps;
+  uint32_t commands = 0;
+  for (const WlkPassStats& pass : scene.passes()) {
+    const bool mine = pass.pass == WLK_PASS_SURFACE || pass.pass == WLK_PASS_SURFACE_LIGHT;
+    commands += mine ? pass.commands : 0;
+  }
+  EXPECT_EQ(commands, MOST);
+  EXPECT_GT(written, uint64_t{MOST});
+  EXPECT_TRUE(scene.device().messages().empty());
 }
 
 TEST(Timestamps, AreNotWrittenByViewsWhereTheQueueHasNone) {
