@@ -391,7 +391,7 @@ struct ViewResources {
   vk::Buffer surfaceCover;
   vk::Buffer surfaceFaces;
   vk::Buffer surfaceLevels;
-  vk::Buffer surfaceList;    // pixels that it covers
+  vk::Buffer surfaceList;  // pixels that it covers
   VkDeviceSize surfaceStride = 0;
   VkDeviceSize surfaceOffset = 0;
   uint32_t surfaceCapacity = 0;

@@ -235,8 +235,7 @@ Pipelines::Pipelines(Device& device, std::pmr::memory_resource* host)
           BIND_SURFACE_SHARE, BIND_SURFACE_NOISE}) {
       surface[i].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     }
-    for (const uint32_t i :
-         {BIND_SURFACE_VERTICES, BIND_SURFACE_CORNERS, BIND_SURFACE_DEPTHS}) {
+    for (const uint32_t i : {BIND_SURFACE_VERTICES, BIND_SURFACE_CORNERS, BIND_SURFACE_DEPTHS}) {
       surface[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     }
     for (const uint32_t i :
