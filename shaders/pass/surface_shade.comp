@@ -60,8 +60,8 @@ layout(set = 0, binding = 29) uniform usamplerBuffer frameTexels;
 #include "surface_place.glsl"
 #include "surface_shell.glsl"
 
-// Along a chord, and what of its opacity lies in front of their ends: four of the same opacity are
-// as far off (docs/results/surface-numerics.csv).
+// Along a chord, and what of its opacity lies in front of their ends. Errors of pictures, with all
+// else that is not exact, and of those with four even ones: docs/results/surface-numerics.csv.
 const int STRETCHES = 3;
 const float STRETCH_ENDS[STRETCHES] = {0.35f, 0.8f, 1.0f};
 // At the detail on the way to the light: from where the cloud begins, and from the point whose
