@@ -25,6 +25,7 @@ struct Options {
   std::string commit;
   std::vector<std::string> pack;
   size_t rounds = 0;
+  double until_s = 480.0;
   uint32_t timedWidth = 0;
   bool quick = false;
   bool levelsOnly = false;
@@ -116,43 +117,119 @@ size_t checkContract(const Options& options) {
 
 void print(const Case& one, const Study& result) {
   std::printf("%-16s %-18s %9s %8s %8s %8s %12s %10s %10s %10s\n", one.name.c_str(), "method", "ms",
-              "ratio", "med low", "med high", "invocations", "truth", "single", "converged");
+              "CPU", "error", "rounds", "invocations", "truth", "single", "converged");
   for (const Row& row : result.rows) {
     const auto figure = [](const Ordered& errors) {
       return errors.is_null() ? NAN : errors.at("rmseOverMean").get<double>();
     };
-    std::printf("%-16s %-18s %9.3f %8.4f %8.4f %8.4f %12llu %10.3g %10.3g %10.3g\n", "",
-                row.method.name.c_str(), row.timing.wall, row.timing.relative,
-                row.timing.medianRatioLow, row.timing.medianRatioHigh,
+    std::printf("%-16s %-18s %9.3f %8.4f %8.4f %8zu %12llu %10.3g %10.3g %10.3g\n", "",
+                row.method.name.c_str(), row.timing.wall, row.timing.relativeCpu.time,
+                row.timing.relativeCpu.error, row.timing.rounds,
                 static_cast<unsigned long long>(row.counts.invocations), figure(row.truth),
                 figure(row.single), figure(row.converged));
   }
   std::fflush(stdout);
 }
 
+// How long the cases' frames are timed: in quick runs as long as there is time for it.
+class Schedule {
+ public:
+  Schedule(const std::vector<Case>& cases, bool quick, double until_s)
+      : quick_(quick), until_s_(until_s) {
+    for (const Case& one : cases) {
+      const bool hasVolumes = !sceneOf(one, false).volumes.empty();
+      const size_t methods = methodsFor(one, hasVolumes, quick).size();
+      cases_.push_back({hasVolumes, static_cast<double>(methods)});
+    }
+  }
+  [[nodiscard]] double spent_s() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  void begin(size_t index) {
+    index_ = index;
+    begun_s_ = spent_s();
+    timing_s_ = 0.0;
+  }
+  // Of the case that was begun. Called before its warm-ups.
+  double timing_s() {
+    const Entry& own = cases_[index_];
+    if (!quick_) {
+      timing_s_ = own.hasVolumes ? VOLUMES_s : SKY_s;
+      return timing_s_;
+    }
+    double left = until_s_ - spent_s() - WARMING * setup(own);
+    double shares = share(own);
+    for (size_t i = index_ + 1; i < cases_.size(); ++i) {
+      left -= setup(cases_[i]);
+      shares += share(cases_[i]);
+    }
+    timing_s_ = std::clamp(left * share(own) / shares, LEAST_s, MOST_s);
+    return timing_s_;
+  }
+  void end() {
+    Mean& mean = cases_[index_].hasVolumes ? volumes_ : sky_;
+    mean.sum_s += spent_s() - begun_s_ - timing_s_;
+    mean.methods += cases_[index_].methods;
+  }
+
+ private:
+  struct Entry {
+    bool hasVolumes = false;
+    double methods = 0.0;
+  };
+  struct Mean {
+    double sum_s = 0.0;
+    double methods = 0.0;
+  };
+  // Of full runs.
+  static constexpr double VOLUMES_s = 40.0;
+  static constexpr double SKY_s = 10.0;
+  static constexpr double LEAST_s = 2.0;
+  static constexpr double MOST_s = 30.0;
+  // Warm-ups' part of what a case takes beside its rounds.
+  static constexpr double WARMING = 0.25;
+
+  // Beside the rounds.
+  [[nodiscard]] double setup(const Entry& one) const {
+    const Mean& mean = one.hasVolumes ? volumes_ : sky_;
+    return mean.sum_s / mean.methods * one.methods;
+  }
+  // Frames of skies are a third as long, and all methods' alike.
+  static double share(const Entry& one) { return one.methods * (one.hasVolumes ? 1.0 : 0.5); }
+
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::vector<Entry> cases_;
+  bool quick_ = false;
+  double until_s_ = 0.0;
+  size_t index_ = 0;
+  double begun_s_ = 0.0;
+  double timing_s_ = 0.0;
+  // What cases took so far; to begin with what one took on a loud machine of two cores.
+  Mean volumes_{20.0, 10.0};
+  Mean sky_{2.5, 5.0};
+};
+
 void measure(const Options& options) {
   constexpr size_t ROUNDS = 30;
-  constexpr size_t QUICK_ROUNDS = 10;
+  constexpr size_t QUICK_ROUNDS = 8;
+  const std::vector<Case> cases = chosenCases(options);
+  Schedule schedule(cases, options.quick, options.until_s);
   StudyOptions study;
   study.rounds = options.rounds != 0 ? options.rounds : (options.quick ? QUICK_ROUNDS : ROUNDS);
+  study.timing_s = [&] { return options.rounds != 0 ? 0.0 : schedule.timing_s(); };
   study.quick = options.quick;
   study.levelsOnly = options.levelsOnly;
   study.referenceFolder = options.references;
   Ordered report = reportHead(options.commit, study.rounds, options.quick);
-  const auto start = std::chrono::steady_clock::now();
-  const auto spent_s = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
-  const std::vector<Case> cases = chosenCases(options);
   std::vector<Study> studies(cases.size());
   const auto visit = [&](size_t index, const Study* before) {
     const auto tell = [&](const std::string& step) {
-      std::fprintf(stderr, "%5.0f s %s: %s\n", spent_s(), cases[index].name.c_str(), step.c_str());
+      std::fprintf(stderr, "%5.0f s %s: %s\n", schedule.spent_s(), cases[index].name.c_str(),
+                   step.c_str());
     };
+    schedule.begin(index);
     Study result = studyCase(cases[index], study, tell, before);
-    if (before != nullptr && quietRows(result) < quietRows(*before)) {
-      result = *before;
-    }
+    schedule.end();
     report["device"] = result.device;
     print(cases[index], result);
     studies[index] = std::move(result);
@@ -173,32 +250,18 @@ void measure(const Options& options) {
   for (size_t i = 0; i < cases.size(); ++i) {
     visit(i, nullptr);
   }
-  // Cores are loud for seconds to minutes: times of scenes that found them so are taken again, of
-  // the worst first and of each once before any is taken a third time. The rest of tools/bench
-  // takes two minutes and a half.
-  constexpr double QUICK_UNTIL_s = 420.0;
+  // Cores are loud for seconds to minutes: full runs time scenes that found them so again.
   constexpr size_t MOST_VISITS = 4;
-  std::vector<size_t> visits(cases.size(), 1);
-  const auto loud = [&](size_t i) {
-    const auto rows = static_cast<double>(studies[i].rows.size());
-    return 1.0 - static_cast<double>(quietRows(studies[i])) / rows;
+  const auto isLoud = [](const Study& one) {
+    return !std::all_of(one.rows.begin(), one.rows.end(), isQuiet);
   };
-  for (;;) {
-    size_t next = cases.size();
+  for (size_t visits = 1; visits < MOST_VISITS && !options.quick; ++visits) {
     for (size_t i = 0; i < cases.size(); ++i) {
-      const bool timely = !options.quick || spent_s() + studies[i].again_s < QUICK_UNTIL_s;
-      const bool worse = next == cases.size() || visits[i] < visits[next] ||
-                         (visits[i] == visits[next] && loud(i) > loud(next));
-      if (timely && loud(i) > 0.0 && visits[i] < MOST_VISITS && worse) {
-        next = i;
+      if (isLoud(studies[i])) {
+        const Study before = studies[i];
+        visit(i, &before);
       }
     }
-    if (next == cases.size()) {
-      break;
-    }
-    ++visits[next];
-    const Study before = studies[next];
-    visit(next, &before);
   }
 }
 
@@ -222,7 +285,11 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--case", options.names, "Only this case; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--rounds", options.rounds, "Interleaved rounds (default 30; quick 10)");
+  app.add_option("--rounds", options.rounds,
+                 "Interleaved rounds, more of cheap and uncertain ones, for all the time they take "
+                 "(default: as many as there is time for)");
+  app.add_option("--until", options.until_s,
+                 "Quick runs: share about so many seconds (default 480)");
   app.add_option("--timed-width", options.timedWidth,
                  "Least width of the pictures that are timed: GPUs draw a case's own in no time")
       ->check(CLI::Range(1, 8192));

@@ -52,7 +52,7 @@ constexpr std::array<Variation, 26> VARIATIONS = {{
     {"512-256", HIGH, 512, 0, 256, ALIGNED, FORWARD, Run::Full},
     {"256-512", HIGH, 256, 0, 512, ALIGNED, FORWARD, Run::Full},
     {"512-512", HIGH, 512, 64, 512, ALIGNED, FORWARD, Run::Full},
-    {"half-angle", HIGH, 0, 64, 0, HALF, FORWARD, Run::Quick},
+    {"half-angle", HIGH, 0, 64, 0, HALF, FORWARD, Run::Full},
     {"half-angle-512", HIGH, 512, 64, 0, HALF, FORWARD, Run::Full},
     {"integer", HIGH, 0, 0, 0, ALIGNED, INTEGER, Run::Curves},
     {"single", HIGH, 0, 0, 0, ALIGNED, SINGLE, Run::Quick},

@@ -11,7 +11,7 @@
 
 namespace bench {
 
-/// The method that every time is divided by.
+/// The method that medians of ratios are taken to.
 constexpr const char* ANCHOR = "high";
 constexpr uint32_t LEVEL_COUNT = 4;
 

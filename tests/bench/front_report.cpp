@@ -70,7 +70,7 @@ void save(const std::string& file, const std::string& text) {
 
 Ordered reportHead(const std::string& commit, size_t rounds, bool quick) {
   return {
-      {"schema", 2},
+      {"schema", 3},
       {"machine", machine()},
       {"device", Ordered::object()},
       {"build",
@@ -107,10 +107,10 @@ Ordered reportRow(const Case& one, const Row& row) {
           {"timeMad_ms", timing.wallDeviation},
           {"cpu_ms", timing.cpu},
           {"gpu_ms", timing.gpu},
-          {"fastThird_ms", timing.fastThird},
-          {"fastThirdCpu_ms", timing.fastThirdCpu},
-          {"relativeTime", timing.relative},
-          {"relativeCpuTime", timing.relativeCpu},
+          {"relativeTime", timing.relative.time},
+          {"relativeTimeError", timing.relative.error},
+          {"relativeCpuTime", timing.relativeCpu.time},
+          {"relativeCpuTimeError", timing.relativeCpu.error},
           {"medianRatio", timing.medianRatio},
           {"medianRatioLow", timing.medianRatioLow},
           {"medianRatioHigh", timing.medianRatioHigh},

@@ -2,7 +2,7 @@
 #include "bench/front_study.hpp"
 
 #include <algorithm>
-#include <chrono>
+#include <future>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -35,12 +35,31 @@ bool keepsMuch(const Settings& settings) {
 // sky and ground or without.
 class Worlds {
  public:
-  explicit Worlds(const Case& one) : case_(one) { opaque_ = of({}).makeOpaque(); }
+  // All at once: what a context makes of a scene keeps one core busy.
+  Worlds(const Case& one, const std::vector<Method>& methods) : case_(one) {
+    std::map<Key, std::future<std::unique_ptr<World>>> made;
+    for (const Method& method : methods) {
+      const Settings& settings = method.settings;
+      const auto make = [this, &method, &settings] {
+        auto world = std::make_unique<World>(case_, settings.analytic, settings.ambient);
+        // Its first view compiles, and makes the tables that all share.
+        const WlkView view = world->addView(qualityOf(method));
+        world->prepare();
+        world->removeView(view);
+        return world;
+      };
+      std::future<std::unique_ptr<World>>& world = made[keyOf(settings)];
+      if (!world.valid()) {
+        world = std::async(std::launch::async, make);
+      }
+    }
+    for (auto& [key, world] : made) {
+      worlds_[key] = world.get();
+    }
+    opaque_ = of({}).makeOpaque();
+  }
   World& of(const Settings& settings) {
-    const bool apart = keepsMuch(settings);
-    std::unique_ptr<World>& world =
-        worlds_[{settings.analytic, settings.ambient, apart ? settings.lightBufferSize : 0,
-                 apart ? settings.sliceCount : 0}];
+    std::unique_ptr<World>& world = worlds_[keyOf(settings)];
     if (!world) {
       world = std::make_unique<World>(case_, settings.analytic, settings.ambient);
     }
@@ -50,8 +69,16 @@ class Worlds {
   [[nodiscard]] const host::RasterResult& opaque() const { return opaque_; }
 
  private:
+  using Key = std::tuple<bool, bool, uint32_t, uint32_t>;
+
+  static Key keyOf(const Settings& settings) {
+    const bool apart = keepsMuch(settings);
+    return {settings.analytic, settings.ambient, apart ? settings.lightBufferSize : 0,
+            apart ? settings.sliceCount : 0};
+  }
+
   const Case& case_;
-  std::map<std::tuple<bool, bool, uint32_t, uint32_t>, std::unique_ptr<World>> worlds_;
+  std::map<Key, std::unique_ptr<World>> worlds_;
   host::RasterResult opaque_;
 };
 
@@ -111,32 +138,12 @@ class Limits {
   std::map<std::pair<uint32_t, bool>, Reference> limits_;
 };
 
-// s.
-class Stopwatch {
- public:
-  void go(bool on) {
-    const Clock::time_point now = Clock::now();
-    spent_ += on_ ? now - since_ : Clock::duration{};
-    since_ = now;
-    on_ = on;
-  }
-  [[nodiscard]] double spent_s() const { return std::chrono::duration<double>(spent_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point since_;
-  Clock::duration spent_{};
-  bool on_ = false;
-};
-
-// Pictures and counts of all methods; `again` runs while what stays is made.
+// Pictures and counts of all methods.
 std::vector<Row> measureRows(const Case& one, const StudyOptions& options, Worlds& worlds,
-                             Stopwatch& again, const Tell& tell) {
+                             const std::vector<Method>& methods, const Tell& tell) {
   const bool hasVolumes = !worlds.of({}).scene().volumes.empty();
   const References references = readReferences(options.referenceFolder, one);
   Limits limits(worlds, options, references.converged);
-  const std::vector<Method> methods =
-      options.levelsOnly ? levelMethods() : methodsFor(one, hasVolumes, options.quick);
   std::vector<size_t> order(methods.size());
   std::iota(order.begin(), order.end(), size_t{0});
   std::stable_partition(order.begin(), order.end(),
@@ -145,9 +152,7 @@ std::vector<Row> measureRows(const Case& one, const StudyOptions& options, World
   for (const size_t i : order) {
     tell("errors of " + methods[i].name);
     const Method& method = methods[i];
-    again.go(staysForTiming(method));
     shots[i] = shoot(worlds, qualityOf(method), method.settings, staysForTiming(method));
-    again.go(false);
   }
   std::vector<Row> rows;
   for (size_t i = 0; i < methods.size(); ++i) {
@@ -166,8 +171,8 @@ std::vector<Row> measureRows(const Case& one, const StudyOptions& options, World
   return rows;
 }
 
-void timeRows(const Case& one, const StudyOptions& options, Worlds& worlds,
-              std::vector<Row>& rows) {
+void timeRows(const Case& one, const StudyOptions& options, Worlds& worlds, Study& study) {
+  std::vector<Row>& rows = study.rows;
   const bool hasVolumes = !worlds.of({}).scene().volumes.empty();
   const uint32_t usual = hasVolumes ? TIMED_WIDTH_VOLUMES : TIMED_WIDTH;
   const uint32_t width = std::max(usual, one.timedWidth);
@@ -191,7 +196,8 @@ void timeRows(const Case& one, const StudyOptions& options, Worlds& worlds,
   for (const Row& row : rows) {
     worlds.of(row.method.settings).prepare();
   }
-  const std::vector<Timing> timings = interleave(frames, anchor, WARM_UPS, options.rounds);
+  takeSamples(frames, anchor, {WARM_UPS, options.rounds, 1e3 * options.timing_s()}, study.samples);
+  const std::vector<Timing> timings = timingsOf(study.samples, rows.size(), anchor);
   for (size_t i = 0; i < rows.size(); ++i) {
     rows[i].timing = timings[i];
     rows[i].timedScale = scale;
@@ -203,10 +209,10 @@ void timeRows(const Case& one, const StudyOptions& options, Worlds& worlds,
 Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell,
                 const Study* before) {
   tell("scene");
-  Stopwatch again;
-  again.go(true);
-  Worlds worlds(one);
-  again.go(false);
+  const bool hasVolumes = !sceneOf(one, false).volumes.empty();
+  const std::vector<Method> methods =
+      options.levelsOnly ? levelMethods() : methodsFor(one, hasVolumes, options.quick);
+  Worlds worlds(one, methods);
   const WlkCapabilities device = worlds.of({}).capabilities();
   Study study;
   study.device = {{"name", std::string(device.deviceName)},
@@ -214,32 +220,24 @@ Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell,
                                  std::to_string(device.vulkanVersion >> 12 & 0x3ffu) + "." +
                                  std::to_string(device.vulkanVersion & 0xfffu)}};
   if (before == nullptr) {
-    study.rows = measureRows(one, options, worlds, again, tell);
+    study.rows = measureRows(one, options, worlds, methods, tell);
   } else {
     study.rows = before->rows;
+    study.samples = before->samples;
     for (const Row& row : study.rows) {
       if (staysForTiming(row.method)) {
         tell("light of " + row.method.name);
-        again.go(true);
         shoot(worlds, qualityOf(row.method), row.method.settings, true);
-        again.go(false);
       }
     }
   }
   tell("times");
-  again.go(true);
-  timeRows(one, options, worlds, study.rows);
-  again.go(false);
-  study.again_s = again.spent_s();
+  timeRows(one, options, worlds, study);
   return study;
 }
 
 bool isQuiet(const Row& row) {
-  return row.timing.quietRounds >= ENOUGH_QUIET && areQuiet(row.timing.cores);
-}
-
-size_t quietRows(const Study& study) {
-  return static_cast<size_t>(std::count_if(study.rows.begin(), study.rows.end(), isQuiet));
+  return row.timing.relativeQuiet && areQuiet(row.timing.cores);
 }
 
 }  // namespace bench

@@ -13,7 +13,11 @@
 namespace bench {
 
 struct StudyOptions {
+  /// At least.
   size_t rounds = 15;
+  /// Rounds go on for so long. Asked when all pictures are made; the timed frames' warm-ups are
+  /// still to come.
+  std::function<double()> timing_s = [] { return 0.0; };
   /// Fewer methods, and only the converged pictures that lie in the folder.
   bool quick = false;
   bool levelsOnly = false;
@@ -33,22 +37,20 @@ struct Row {
 
 struct Study {
   std::vector<Row> rows;
+  /// Of all visits, in the order taken.
+  std::vector<FrameTime> samples;
   Ordered device;
-  /// What timing it once more takes, as far as this time tells.
-  double again_s = 0.0;
 };
 
 /// Told before each slow step.
 using Tell = std::function<void(const std::string&)>;
 
-/// `before`: an earlier study of the case, whose errors and counts are taken over.
+/// `before`: an earlier study of the case, whose errors and counts are taken over, and whose times
+/// count with the new ones.
 Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell,
                 const Study* before = nullptr);
 
-/// Whether it was timed on cores that were quiet, as far as the process knows by now.
+/// Whether its times are of cores that were quiet, as far as the process knows by now.
 bool isQuiet(const Row& row);
-
-/// How many were.
-size_t quietRows(const Study& study);
 
 }  // namespace bench

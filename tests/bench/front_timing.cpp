@@ -7,7 +7,8 @@
 #include <ctime>
 #include <iterator>
 #include <limits>
-#include <numeric>
+#include <map>
+#include <random>
 #include <utility>
 
 #include "bench/cores.hpp"
@@ -30,8 +31,10 @@ constexpr double LONG_WARM_UP_ms = 60.0;
 constexpr double LONG_FIRST_ms = 1000.0;
 // Long frames differ less: from so many times MIN_ROUND_ms on a method is timed in every second
 // round.
-constexpr double LONG_ROUND = 6.0;
+constexpr double LONG_ROUND = 10.0;
 constexpr size_t MAX_STRIDE = 2;
+// Every order has each method beside others, so that what the machine adds can be told.
+constexpr uint32_t ORDERS_SEED = 1;
 // A method whose fastest quiet rounds, CONFIRMED of them, differ by more than this (last / first)
 // is timed in more rounds, up to UNSURE_ROUNDS times as many as were asked for, long ones up to as
 // many.
@@ -41,16 +44,10 @@ constexpr size_t UNSURE_ROUNDS = 2;
 // Unless so many rounds had nothing quiet.
 constexpr size_t LOUD_ROUNDS = 3;
 
-// All rounds of a set of methods wait so long for quiet cores.
+// All rounds of a set of methods wait so long for quiet cores, or such a part of the time they
+// have.
 constexpr double PATIENCE_ms = 2500.0;
-
-struct Sample {
-  double wall = 0.0;
-  double cpu = 0.0;
-  double gpu = 0.0;
-  /// The worse before and after.
-  CoreState cores;
-};
+constexpr double PATIENCE = 0.1;
 
 double wallClock_ms() {
   const auto now = std::chrono::steady_clock::now().time_since_epoch();
@@ -64,8 +61,8 @@ double processClock_ms() {
   return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
-Sample timeFrames(const RenderFrame& frame, size_t repeats) {
-  Sample sample;
+FrameTime timeFrames(const RenderFrame& frame, size_t repeats) {
+  FrameTime sample;
   const double wall = wallClock_ms();
   const double cpu = processClock_ms();
   for (size_t i = 0; i < repeats; ++i) {
@@ -74,13 +71,17 @@ Sample timeFrames(const RenderFrame& frame, size_t repeats) {
   sample.cpu = processClock_ms() - cpu;
   sample.wall = wallClock_ms() - wall;
   const auto count = static_cast<double>(repeats);
-  return {sample.wall / count, sample.cpu / count, sample.gpu / count};
+  sample.wall /= count;
+  sample.cpu /= count;
+  sample.gpu /= count;
+  return sample;
 }
 
 // Cores between samples.
 class Cores {
  public:
-  explicit Cores(ProbeCores probe) : probe_(std::move(probe)), state_(probe_(0.0)) {}
+  Cores(ProbeCores probe, double patience_ms)
+      : probe_(std::move(probe)), state_(probe_(0.0)), patience_ms_(patience_ms) {}
   // Waits for quiet cores as long as patience lasts.
   void await() {
     if (!areQuiet(state_)) {
@@ -99,11 +100,11 @@ class Cores {
  private:
   ProbeCores probe_;
   CoreState state_;
-  double patience_ms_ = PATIENCE_ms;
+  double patience_ms_;
 };
 
-std::vector<double> ratios(const std::vector<Sample>& samples, const std::vector<Sample>& anchor,
-                           double Sample::*time) {
+std::vector<double> ratios(const std::vector<FrameTime>& samples,
+                           const std::vector<FrameTime>& anchor, double FrameTime::*time) {
   std::vector<double> result;
   for (size_t i = 0; i < samples.size(); ++i) {
     result.push_back(samples[i].*time / (anchor[i].*time));
@@ -112,85 +113,75 @@ std::vector<double> ratios(const std::vector<Sample>& samples, const std::vector
   return result;
 }
 
-std::vector<double> column(const std::vector<Sample>& samples, double Sample::*time) {
+std::vector<double> column(const std::vector<FrameTime>& samples, double FrameTime::*time) {
   std::vector<double> result;
-  for (const Sample& sample : samples) {
+  for (const FrameTime& sample : samples) {
     result.push_back(sample.*time);
   }
   return result;
 }
 
-double least(const std::vector<Sample>& samples, double Sample::*time) {
+double least(const std::vector<FrameTime>& samples, double FrameTime::*time) {
   double result = std::numeric_limits<double>::infinity();
-  for (const Sample& sample : samples) {
+  for (const FrameTime& sample : samples) {
     result = std::min(result, sample.*time);
   }
   return result;
 }
 
-// Two at least: of four or five a third would be a single one.
-double fastThirdOf(const std::vector<Sample>& samples, double Sample::*time) {
-  std::vector<double> times = column(samples, time);
-  std::sort(times.begin(), times.end());
-  times.resize(std::min(std::max<size_t>(times.size() / 3, 2), times.size()));
-  return std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size());
-}
-
-std::vector<Sample> quietOf(const std::vector<Sample>& samples) {
-  std::vector<Sample> quiet;
+std::vector<FrameTime> quietOf(const std::vector<FrameTime>& samples) {
+  std::vector<FrameTime> quiet;
   std::copy_if(samples.begin(), samples.end(), std::back_inserter(quiet),
-               [](const Sample& sample) { return areQuiet(sample.cores); });
+               [](const FrameTime& sample) { return areQuiet(sample.cores); });
   return quiet;
 }
 
-CoreState typical(const std::vector<Sample>& samples) {
+CoreState typical(const std::vector<FrameTime>& samples) {
   std::vector<double> handovers;
   std::vector<double> works;
-  for (const Sample& sample : samples) {
+  for (const FrameTime& sample : samples) {
     handovers.push_back(sample.cores.handover_ns);
     works.push_back(sample.cores.work_ns);
   }
   return {medianOf(handovers), medianOf(works)};
 }
 
-bool isUnsure(const std::vector<Sample>& samples) {
-  std::vector<double> walls = column(quietOf(samples), &Sample::wall);
+bool isUnsure(const std::vector<FrameTime>& samples) {
+  std::vector<double> walls = column(quietOf(samples), &FrameTime::wall);
   std::sort(walls.begin(), walls.end());
   return walls.size() < CONFIRMED || walls[CONFIRMED - 1] > UNSURE * walls.front();
 }
 
 // In quiet rounds, or in all if those are too few.
-std::vector<Sample> bestOf(const std::vector<Sample>& samples) {
-  std::vector<Sample> quiet = quietOf(samples);
+std::vector<FrameTime> bestOf(const std::vector<FrameTime>& samples) {
+  std::vector<FrameTime> quiet = quietOf(samples);
   return quiet.size() < ENOUGH_QUIET ? samples : quiet;
 }
 
 // `anchor`: in the same rounds; `anchorEver`: in all.
-Timing summarise(const std::vector<Sample>& samples, const std::vector<Sample>& anchor,
-                 const std::vector<Sample>& anchorEver) {
-  const std::vector<Sample> best = bestOf(samples);
-  const std::vector<Sample> anchorBest = bestOf(anchorEver);
+Timing summarise(const std::vector<FrameTime>& samples, const std::vector<FrameTime>& anchor,
+                 const std::vector<FrameTime>& anchorEver) {
+  const std::vector<FrameTime> best = bestOf(samples);
+  const std::vector<FrameTime> anchorBest = bestOf(anchorEver);
   Timing timing;
-  timing.wall = medianOf(column(best, &Sample::wall));
+  timing.wall = medianOf(column(best, &FrameTime::wall));
   std::vector<double> distance;
-  for (const Sample& sample : best) {
+  for (const FrameTime& sample : best) {
     distance.push_back(std::abs(sample.wall - timing.wall));
   }
   timing.wallDeviation = medianOf(distance);
-  timing.cpu = medianOf(column(best, &Sample::cpu));
-  timing.gpu = medianOf(column(best, &Sample::gpu));
-  timing.fastest = least(best, &Sample::wall);
-  timing.leastCpu = least(best, &Sample::cpu);
-  timing.ratio = timing.fastest / least(anchorBest, &Sample::wall);
-  timing.cpuRatio = timing.leastCpu / least(anchorBest, &Sample::cpu);
-  timing.fastThird = fastThirdOf(best, &Sample::wall);
-  timing.fastThirdCpu = fastThirdOf(best, &Sample::cpu);
+  timing.cpu = medianOf(column(best, &FrameTime::cpu));
+  timing.gpu = medianOf(column(best, &FrameTime::gpu));
+  timing.fastest = least(best, &FrameTime::wall);
+  timing.leastCpu = least(best, &FrameTime::cpu);
+  timing.ratio = timing.fastest / least(anchorBest, &FrameTime::wall);
+  timing.cpuRatio = timing.leastCpu / least(anchorBest, &FrameTime::cpu);
   timing.rounds = samples.size();
   timing.quietRounds = quietOf(samples).size();
   timing.cores = typical(best);
-  const std::vector<double> byRound = ratios(samples, anchor, &Sample::wall);
+  const std::vector<double> byRound = ratios(samples, anchor, &FrameTime::wall);
   timing.medianRatio = medianOf(byRound);
-  timing.medianCpuRatio = medianOf(ratios(samples, anchor, &Sample::cpu));
+  timing.medianCpuRatio = medianOf(ratios(samples, anchor, &FrameTime::cpu));
   // The count of samples below the median is binomial: n/2 +- 1.96 sqrt(n)/2.
   const auto n = static_cast<double>(byRound.size());
   const double rank = std::floor(0.5 * n - 0.98 * std::sqrt(n));
@@ -200,21 +191,22 @@ Timing summarise(const std::vector<Sample>& samples, const std::vector<Sample>& 
   return timing;
 }
 
-double geometricMean(const std::vector<Timing>& timings, double Timing::*time) {
-  double sum = 0.0;
-  for (const Timing& timing : timings) {
-    sum += std::log(timing.*time);
+std::vector<std::vector<FrameTime>> byMethod(const std::vector<FrameTime>& samples,
+                                             size_t methods) {
+  std::vector<std::vector<FrameTime>> result(methods);
+  for (const FrameTime& sample : samples) {
+    result[sample.method].push_back(sample);
   }
-  return std::exp(sum / static_cast<double>(timings.size()));
+  return result;
 }
 
-void relate(std::vector<Timing>& timings) {
-  const double wall = geometricMean(timings, &Timing::fastThird);
-  const double cpu = geometricMean(timings, &Timing::fastThirdCpu);
-  for (Timing& timing : timings) {
-    timing.relative = timing.fastThird / wall;
-    timing.relativeCpu = timing.fastThirdCpu / cpu;
+std::vector<RelativeTime> relate(const std::vector<FrameTime>& samples, size_t methods,
+                                 double FrameTime::*time) {
+  std::vector<TimedMethod> timed;
+  for (const FrameTime& sample : samples) {
+    timed.push_back({sample.method, sample.*time});
   }
+  return relativeTimes(timed, methods);
 }
 
 // How one method is timed.
@@ -255,8 +247,8 @@ double medianOf(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor, size_t warmUps,
-                               size_t rounds, ProbeCores probe) {
+void takeSamples(const std::vector<Copies>& methods, size_t anchor, const Effort& effort,
+                 std::vector<FrameTime>& samples, ProbeCores probe) {
   const bool onCores = pinDriverThreads() > 1;
   if (!probe) {
     probe = onCores ? awaitQuietCores : [](double) { return CoreState{}; };
@@ -264,64 +256,100 @@ std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor
   std::vector<Turn> turns;
   double round_ms = 0;
   for (size_t i = 0; i < methods.size(); ++i) {
-    turns.push_back(warmUp(methods[i], warmUps));
+    turns.push_back(warmUp(methods[i], effort.warmUps));
     if (i == anchor) {
       turns[i].stride = 1;
     }
     round_ms += turns[i].frame_ms * static_cast<double>(turns[i].repeats) /
                 static_cast<double>(turns[i].stride);
   }
-  const size_t asked = rounds;
   const auto fill = static_cast<size_t>(MIN_STUDY_ms / round_ms);
-  rounds = std::max(std::clamp(fill, rounds, MORE_ROUNDS * rounds), MAX_STRIDE);
-  std::vector<std::vector<Sample>> samples(methods.size());
-  std::vector<std::vector<Sample>> anchors(methods.size());  // of the same rounds
-  Cores cores(std::move(probe));
+  const bool timed = effort.least_ms > 0.0;
+  const size_t more = timed ? effort.rounds : MORE_ROUNDS * effort.rounds;
+  const size_t rounds = std::max(std::clamp(fill, effort.rounds, more), MAX_STRIDE);
+  Cores cores(std::move(probe), timed ? PATIENCE * effort.least_ms : PATIENCE_ms);
+  std::mt19937 random(ORDERS_SEED);
+  std::vector<size_t> taken(methods.size());
+  size_t round = samples.empty() ? 0 : samples.back().round + 1;
   size_t loud = 0;  // rounds since there was a quiet sample
   const auto time = [&](const std::vector<size_t>& due) {
     bool someQuiet = false;
     for (const size_t i : due) {
       cores.await();
-      const RenderFrame& frame = methods[i][samples[i].size() % turns[i].copies];
-      samples[i].push_back(timeFrames(frame, turns[i].repeats));
-      samples[i].back().cores = cores.around();
-      someQuiet = someQuiet || areQuiet(samples[i].back().cores);
+      const RenderFrame& frame = methods[i][taken[i]++ % turns[i].copies];
+      FrameTime sample = timeFrames(frame, turns[i].repeats);
+      sample.method = i;
+      sample.round = round;
+      sample.cores = cores.around();
+      someQuiet = someQuiet || areQuiet(sample.cores);
+      samples.push_back(sample);
     }
-    for (const size_t i : due) {
-      anchors[i].push_back(samples[anchor].back());
-    }
+    ++round;
     loud = someQuiet ? 0 : loud + 1;
   };
-  for (size_t round = 0; round < rounds; ++round) {
+  const double start = wallClock_ms();
+  for (size_t done = 0; done < rounds || wallClock_ms() - start < effort.least_ms; ++done) {
     std::vector<size_t> due;
     for (size_t k = 0; k < methods.size(); ++k) {
-      const size_t i = (k + round) % methods.size();
-      if ((i + round) % turns[i].stride == 0) {
-        due.push_back(i);
+      if ((k + done) % turns[k].stride == 0) {
+        due.push_back(k);
       }
     }
+    std::shuffle(due.begin(), due.end(), random);
     time(due);
   }
-  for (size_t more = 0; more < UNSURE_ROUNDS * asked && loud < LOUD_ROUNDS; ++more) {
+  const size_t unsure = timed ? 0 : UNSURE_ROUNDS * effort.rounds;
+  for (size_t done = 0; done < unsure && loud < LOUD_ROUNDS; ++done) {
+    const std::vector<std::vector<FrameTime>> own = byMethod(samples, methods.size());
     std::vector<size_t> due = {anchor};
     for (size_t i = 0; i < methods.size(); ++i) {
-      const bool timely = more < asked || turns[i].frame_ms < LONG_ROUND * MIN_ROUND_ms;
-      if (i != anchor && timely && isUnsure(samples[i])) {
+      const bool timely = done < effort.rounds || turns[i].frame_ms < LONG_ROUND * MIN_ROUND_ms;
+      if (i != anchor && timely && isUnsure(own[i])) {
         due.push_back(i);
       }
     }
-    if (due.size() == 1 && !isUnsure(samples[anchor])) {
+    if (due.size() == 1 && !isUnsure(own[anchor])) {
       break;
     }
-    std::rotate(due.begin(), due.begin() + static_cast<ptrdiff_t>(more % due.size()), due.end());
+    std::shuffle(due.begin(), due.end(), random);
     time(due);
   }
-  std::vector<Timing> timings;
-  for (size_t i = 0; i < methods.size(); ++i) {
-    timings.push_back(summarise(samples[i], anchors[i], samples[anchor]));
+}
+
+std::vector<Timing> timingsOf(const std::vector<FrameTime>& samples, size_t methods,
+                              size_t anchor) {
+  const std::vector<std::vector<FrameTime>> own = byMethod(samples, methods);
+  const std::vector<FrameTime> quiet = quietOf(samples);
+  const bool enough = std::all_of(own.begin(), own.end(), [](const std::vector<FrameTime>& one) {
+    return quietOf(one).size() >= std::min(ENOUGH_QUIET, one.size());
+  });
+  const bool quietOnly = enough && 2 * quiet.size() >= samples.size();
+  const std::vector<FrameTime>& counting = quietOnly ? quiet : samples;
+  const std::vector<RelativeTime> relative = relate(counting, methods, &FrameTime::wall);
+  const std::vector<RelativeTime> relativeCpu = relate(counting, methods, &FrameTime::cpu);
+  std::map<size_t, FrameTime> anchorIn;
+  for (const FrameTime& sample : own[anchor]) {
+    anchorIn[sample.round] = sample;
   }
-  relate(timings);
+  std::vector<Timing> timings;
+  for (size_t i = 0; i < methods; ++i) {
+    std::vector<FrameTime> anchors;
+    for (const FrameTime& sample : own[i]) {
+      anchors.push_back(anchorIn.at(sample.round));
+    }
+    Timing& timing = timings.emplace_back(summarise(own[i], anchors, own[anchor]));
+    timing.relative = relative[i];
+    timing.relativeCpu = relativeCpu[i];
+    timing.relativeQuiet = quietOnly;
+  }
   return timings;
+}
+
+std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor, size_t warmUps,
+                               size_t rounds, ProbeCores probe) {
+  std::vector<FrameTime> samples;
+  takeSamples(methods, anchor, {warmUps, rounds}, samples, std::move(probe));
+  return timingsOf(samples, methods.size(), anchor);
 }
 
 }  // namespace bench

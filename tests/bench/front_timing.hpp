@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "bench/cores.hpp"
+#include "bench/front_relative.hpp"
 
 namespace bench {
 
 /// So many rounds on quiet cores are enough to leave the others out.
 constexpr size_t ENOUGH_QUIET = 3;
 
-/// Of the rounds on quiet cores, of all if those are fewer than ENOUGH_QUIET.
+/// Of the method's rounds on quiet cores, of all if those are fewer than ENOUGH_QUIET.
 struct Timing {
   /// Median over the rounds, and the median distance from it. ms.
   double wall = 0.0;
@@ -28,13 +29,11 @@ struct Timing {
   /// frames alike, so that medians of ratios differ between runs.
   double ratio = 1.0;
   double cpuRatio = 1.0;
-  /// Mean of the fastest third of the rounds, two at least. ms.
-  double fastThird = 0.0;
-  double fastThirdCpu = 0.0;
-  /// Those over their geometric mean of all methods: a yardstick of the same run, which hardly
-  /// follows a single one of many.
-  double relative = 1.0;
-  double relativeCpu = 1.0;
+  /// Of the rounds on quiet cores if each method has enough of them and they are half of all, since
+  /// times stand beside each other; else of all.
+  RelativeTime relative;
+  RelativeTime relativeCpu;
+  bool relativeQuiet = false;
   /// Median over all rounds of time / anchor's time in that round; low and high: order statistics
   /// that hold the median with 95 % confidence (all rounds if there are fewer than six).
   double medianRatio = 1.0;
@@ -60,12 +59,39 @@ using Copies = std::vector<RenderFrame>;
 /// Waits for quiet cores no longer than so many ms; what they are like then.
 using ProbeCores = std::function<CoreState(double)>;
 
-/// Gives the driver's threads a core each, calls every copy `warmUps` times, then every method once
-/// per round, in an order that turns by one place each round, each when cores are quiet, until
-/// it has waited 2.5 s for that; a frame too short to time alone is repeated and its mean taken,
-/// cheap sets of methods get more rounds, long frames miss some, and methods whose fastest quiet
-/// rounds differ get more. `probe`: awaitQuietCores if there is none and the driver's threads are
-/// on several cores.
+/// One round of one method, a frame or the mean of some. ms.
+struct FrameTime {
+  size_t method = 0;
+  size_t round = 0;
+  double wall = 0.0;
+  double cpu = 0.0;
+  double gpu = 0.0;
+  /// The worse before and after.
+  CoreState cores;
+};
+
+struct Effort {
+  /// Frames of each copy before any is timed.
+  size_t warmUps = 1;
+  /// At least.
+  size_t rounds = 1;
+  /// Rounds go on until they took so long. 0: cheap sets of methods get more rounds, and methods
+  /// whose fastest quiet rounds differ.
+  double least_ms = 0.0;
+};
+
+/// Gives the driver's threads a core each, calls every copy as often as its warm-ups ask, then
+/// every method once per round, in another order each round, each when cores are quiet, until it
+/// has waited 2.5 s or a tenth of `least_ms` for that; a frame too short to time alone is repeated
+/// and its mean taken, long frames miss some rounds. Appends to `samples` in the order taken.
+/// `probe`: awaitQuietCores if there is none and the driver's threads are on several cores.
+void takeSamples(const std::vector<Copies>& methods, size_t anchor, const Effort& effort,
+                 std::vector<FrameTime>& samples, ProbeCores probe = nullptr);
+
+/// Each method has a sample at least, and in its rounds the anchor has one.
+std::vector<Timing> timingsOf(const std::vector<FrameTime>& samples, size_t methods, size_t anchor);
+
+/// Both.
 std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor, size_t warmUps,
                                size_t rounds, ProbeCores probe = nullptr);
 

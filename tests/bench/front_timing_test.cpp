@@ -34,17 +34,31 @@ TEST(FrontTiming, RatioIsThatOfTheFastestRounds) {
   EXPECT_GE(timings[1].medianRatioHigh, timings[1].medianRatio);
 }
 
-// Every third round is held up: the fastest third is not. Two methods a factor of 4 apart stand a
-// factor of 2 to both sides of their geometric mean.
-TEST(FrontTiming, RelativeTimesAreOfTheFastestThirdAndOfAllMethods) {
+// Two methods a factor of 4 apart stand a factor of 2 to both sides of their geometric mean; every
+// sixth round of one is held up.
+TEST(FrontTiming, RelativeTimesAreOverThoseOfAllMethods) {
   size_t calls = 0;
   const Copies one = {[] { return spin(10.0); }};
-  const Copies other = {[&calls] { return spin(calls++ % 3 == 0 ? 90.0 : 40.0); }};
-  const std::vector<Timing> timings = interleave({one, other}, 0, 1, 6);
-  EXPECT_NEAR(timings[1].fastThird, 40.0, 40.0 * FOUND);
-  EXPECT_NEAR(timings[0].relative, 0.5, 0.5 * FOUND);
-  EXPECT_NEAR(timings[1].relative, 2.0, 2.0 * FOUND);
-  EXPECT_NEAR(timings[0].relativeCpu * timings[1].relativeCpu, 1.0, 1e-9);
+  const Copies other = {[&calls] { return spin(calls++ % 6 == 0 ? 90.0 : 40.0); }};
+  const std::vector<Timing> timings = interleave({one, other}, 0, 1, 8);
+  EXPECT_NEAR(timings[0].relative.time, 0.5, 0.5 * FOUND);
+  EXPECT_NEAR(timings[1].relative.time, 2.0, 2.0 * FOUND);
+  EXPECT_NEAR(timings[0].relativeCpu.time * timings[1].relativeCpu.time, 1.0, 1e-9);
+}
+
+// Two visits of 300 ms count as one of 600: frames of 10 ms take 60 rounds, less what probes take.
+TEST(FrontTiming, RoundsGoOnForAsLongAsTheyAreTold) {
+  const Copies copies = {[] { return spin(10.0); }};
+  std::vector<FrameTime> samples;
+  takeSamples({copies}, 0, {1, 2, 300.0}, samples);
+  const size_t first = samples.size();
+  EXPECT_GT(first, 10u);
+  EXPECT_LE(first, 31u);
+  takeSamples({copies}, 0, {1, 2, 300.0}, samples);
+  EXPECT_EQ(samples[first].round, samples[first - 1].round + 1);
+  const std::vector<Timing> timings = timingsOf(samples, 1, 0);
+  EXPECT_EQ(timings[0].rounds, samples.size());
+  EXPECT_GT(samples.size(), first + 10);
 }
 
 // Two of three frames run beside others' work, and faster than it ever does in quiet rounds, so
@@ -56,12 +70,12 @@ TEST(FrontTiming, RoundsOnLoudCoresDoNotCount) {
   size_t calls = 0;
   const Copies copies = {[&calls] { return spin(++calls % 3 == 0 ? 20.0 : 10.0); }};
   const auto probe = [&](double) { return calls % 3 == 0 || calls % 3 == 2 ? quiet : loud; };
-  const std::vector<Timing> timings = interleave({copies}, 0, 2, 9, probe);
-  EXPECT_NEAR(timings[0].fastThird, 20.0, 20.0 * FOUND);
+  const std::vector<Timing> timings = interleave({copies}, 0, 2, 3 * ENOUGH_QUIET, probe);
   EXPECT_NEAR(timings[0].wall, 20.0, 20.0 * FOUND);
   EXPECT_NEAR(timings[0].fastest, 20.0, 20.0 * FOUND);
   EXPECT_EQ(timings[0].quietRounds, (timings[0].rounds + 2) / 3);
   EXPECT_EQ(timings[0].cores.work_ns, quiet.work_ns);
+  EXPECT_FALSE(timings[0].relativeQuiet);  // a third of all is too few
 }
 
 TEST(FrontTiming, WithTooFewQuietRoundsAllCount) {
@@ -73,8 +87,9 @@ TEST(FrontTiming, WithTooFewQuietRoundsAllCount) {
     return spin(10.0);
   }};
   const std::vector<Timing> timings = interleave({copies}, 0, 1, 6, [&](double) { return loud; });
-  EXPECT_NEAR(timings[0].fastThird, 10.0, 10.0 * FOUND);
+  EXPECT_NEAR(timings[0].wall, 10.0, 10.0 * FOUND);
   EXPECT_EQ(timings[0].quietRounds, 0u);
+  EXPECT_FALSE(timings[0].relativeQuiet);
   EXPECT_EQ(timings[0].cores.work_ns, loud.work_ns);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bench/front_world.hpp"
 
+#include <mutex>
+
 namespace bench {
 namespace {
 
@@ -16,7 +18,13 @@ World::World(const Case& one, bool analytic, bool ambient) : scene_(sceneOf(one,
   if (!ambient) {
     scene_.ambient.mode = WLK_AMBIENT_OFF;
   }
-  context_ = host::makeHeadlessContext(false, "", log_);
+  {
+    // Contexts of a case are made side by side, but their driver's threads are told apart by the
+    // order in which they are made (driver_threads.hpp).
+    static std::mutex oneByOne;
+    const std::lock_guard<std::mutex> lock(oneByOne);
+    context_ = host::makeHeadlessContext(false, "", log_);
+  }
   host::applyWorld(context_.get(), scene_);
   host::applyBodies(context_.get(), scene_, [](const std::string&) {});
 }
