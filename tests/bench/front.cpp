@@ -25,7 +25,7 @@ struct Options {
   std::string commit;
   std::vector<std::string> pack;
   size_t rounds = 0;
-  double until_s = 480.0;
+  double until_s = 470.0;
   uint32_t timedWidth = 0;
   bool quick = false;
   bool levelsOnly = false;
@@ -289,7 +289,7 @@ void declare(CLI::App& app, Options& options) {
                  "Interleaved rounds, more of cheap and uncertain ones, for all the time they take "
                  "(default: as many as there is time for)");
   app.add_option("--until", options.until_s,
-                 "Quick runs: share about so many seconds (default 480)");
+                 "Quick runs: share about so many seconds (default 470)");
   app.add_option("--timed-width", options.timedWidth,
                  "Least width of the pictures that are timed: GPUs draw a case's own in no time")
       ->check(CLI::Range(1, 8192));

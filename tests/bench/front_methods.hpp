@@ -11,7 +11,7 @@
 
 namespace bench {
 
-/// The method that medians of ratios are taken to.
+/// The method whose time is in every round.
 constexpr const char* ANCHOR = "high";
 constexpr uint32_t LEVEL_COUNT = 4;
 

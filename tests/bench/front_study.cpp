@@ -237,7 +237,8 @@ Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell,
 }
 
 bool isQuiet(const Row& row) {
-  return row.timing.relativeQuiet && areQuiet(row.timing.cores);
+  const Timing& timing = row.timing;
+  return 2 * timing.quietRounds >= timing.rounds && areQuiet(timing.cores);
 }
 
 }  // namespace bench

@@ -50,7 +50,8 @@ using Tell = std::function<void(const std::string&)>;
 Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell,
                 const Study* before = nullptr);
 
-/// Whether its times are of cores that were quiet, as far as the process knows by now.
+/// Whether at least half of its rounds were on quiet cores, quiet as far as the process knows by
+/// now.
 bool isQuiet(const Row& row);
 
 }  // namespace bench

@@ -319,14 +319,8 @@ void takeSamples(const std::vector<Copies>& methods, size_t anchor, const Effort
 std::vector<Timing> timingsOf(const std::vector<FrameTime>& samples, size_t methods,
                               size_t anchor) {
   const std::vector<std::vector<FrameTime>> own = byMethod(samples, methods);
-  const std::vector<FrameTime> quiet = quietOf(samples);
-  const bool enough = std::all_of(own.begin(), own.end(), [](const std::vector<FrameTime>& one) {
-    return quietOf(one).size() >= std::min(ENOUGH_QUIET, one.size());
-  });
-  const bool quietOnly = enough && 2 * quiet.size() >= samples.size();
-  const std::vector<FrameTime>& counting = quietOnly ? quiet : samples;
-  const std::vector<RelativeTime> relative = relate(counting, methods, &FrameTime::wall);
-  const std::vector<RelativeTime> relativeCpu = relate(counting, methods, &FrameTime::cpu);
+  const std::vector<RelativeTime> relative = relate(samples, methods, &FrameTime::wall);
+  const std::vector<RelativeTime> relativeCpu = relate(samples, methods, &FrameTime::cpu);
   std::map<size_t, FrameTime> anchorIn;
   for (const FrameTime& sample : own[anchor]) {
     anchorIn[sample.round] = sample;
@@ -340,7 +334,6 @@ std::vector<Timing> timingsOf(const std::vector<FrameTime>& samples, size_t meth
     Timing& timing = timings.emplace_back(summarise(own[i], anchors, own[anchor]));
     timing.relative = relative[i];
     timing.relativeCpu = relativeCpu[i];
-    timing.relativeQuiet = quietOnly;
   }
   return timings;
 }

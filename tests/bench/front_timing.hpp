@@ -29,11 +29,9 @@ struct Timing {
   /// frames alike, so that medians of ratios differ between runs.
   double ratio = 1.0;
   double cpuRatio = 1.0;
-  /// Of the rounds on quiet cores if each method has enough of them and they are half of all, since
-  /// times stand beside each other; else of all.
+  /// Of all rounds: what the machine adds is taken off.
   RelativeTime relative;
   RelativeTime relativeCpu;
-  bool relativeQuiet = false;
   /// Median over all rounds of time / anchor's time in that round; low and high: order statistics
   /// that hold the median with 95 % confidence (all rounds if there are fewer than six).
   double medianRatio = 1.0;
