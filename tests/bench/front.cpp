@@ -86,7 +86,7 @@ void writeContract(const Options& options) {
   Ordered contract = {{"schema", 1}, {"rows", Ordered::array()}};
   for (const Case& one : chosenCases(options)) {
     std::fprintf(stderr, "%s\n", one.name.c_str());
-    if (!options.keepConverged && !sceneOf(one, false).volumes.empty()) {
+    if (!options.keepConverged && hasVolumes(one)) {
       writePacked(referenceFile(options.references, one, "converged"), convergedPicture(one),
                   CONVERGED_BITS);
     }
@@ -134,12 +134,10 @@ void print(const Case& one, const Study& result) {
 // How long the cases' frames are timed: in quick runs as long as there is time for it.
 class Schedule {
  public:
-  Schedule(const std::vector<Case>& cases, bool quick, double until_s)
-      : quick_(quick), until_s_(until_s) {
+  Schedule(const std::vector<Case>& cases, const StudyOptions& study, double until_s)
+      : quick_(study.quick), until_s_(until_s) {
     for (const Case& one : cases) {
-      const bool hasVolumes = !sceneOf(one, false).volumes.empty();
-      const size_t methods = methodsFor(one, hasVolumes, quick).size();
-      cases_.push_back({hasVolumes, static_cast<double>(methods)});
+      cases_.push_back({hasVolumes(one), static_cast<double>(methodsOf(one, study).size())});
     }
   }
   [[nodiscard]] double spent_s() const {
@@ -213,13 +211,13 @@ void measure(const Options& options) {
   constexpr size_t ROUNDS = 30;
   constexpr size_t QUICK_ROUNDS = 8;
   const std::vector<Case> cases = chosenCases(options);
-  Schedule schedule(cases, options.quick, options.until_s);
   StudyOptions study;
   study.rounds = options.rounds != 0 ? options.rounds : (options.quick ? QUICK_ROUNDS : ROUNDS);
-  study.timing_s = [&] { return options.rounds != 0 ? 0.0 : schedule.timing_s(); };
   study.quick = options.quick;
   study.levelsOnly = options.levelsOnly;
   study.referenceFolder = options.references;
+  Schedule schedule(cases, study, options.until_s);
+  study.timing_s = [&] { return options.rounds != 0 ? 0.0 : schedule.timing_s(); };
   Ordered report = reportHead(options.commit, study.rounds, options.quick);
   std::vector<Study> studies(cases.size());
   const auto visit = [&](size_t index, const Study* before) {

@@ -83,4 +83,8 @@ host::Scene sceneOf(const Case& one, bool analytic) {
   return host::parseScene(host::readSceneJson(one.scene, assignments), one.scene);
 }
 
+bool hasVolumes(const Case& one) {
+  return !sceneOf(one, false).volumes.empty();
+}
+
 }  // namespace bench

@@ -49,4 +49,6 @@ std::vector<std::string> assignmentsOf(const Case& one);
 /// The scene, with the closed form of the phase functions if `analytic`.
 host::Scene sceneOf(const Case& one, bool analytic);
 
+bool hasVolumes(const Case& one);
+
 }  // namespace bench

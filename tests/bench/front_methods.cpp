@@ -176,9 +176,10 @@ std::vector<Method> forwardMethods() {
   return methods;
 }
 
-std::vector<Method> methodsFor(const Case& one, bool hasVolumes, bool quick) {
+std::vector<Method> methodsFor(const Case& one, bool quick) {
+  const bool cloudy = hasVolumes(one);
   std::vector<Method> methods = levelMethods();
-  if (hasVolumes) {
+  if (cloudy) {
     const std::vector<Method> forward = forwardMethods();
     methods.insert(methods.end(), forward.begin(), forward.end());
     if (!quick) {
@@ -188,12 +189,12 @@ std::vector<Method> methodsFor(const Case& one, bool hasVolumes, bool quick) {
   }
   for (const Variation& variation : VARIATIONS) {
     // Of a sky alone only the orders of scattering make a difference.
-    const bool tells = hasVolumes || variation.name == std::string_view("single");
+    const bool tells = cloudy || variation.name == std::string_view("single");
     if (tells && wanted(variation.run, quick, one.curves)) {
       methods.push_back(vary(variation));
     }
   }
-  if (!one.analytic.empty() && (!hasVolumes || wanted(Run::Curves, quick, one.curves))) {
+  if (!one.analytic.empty() && (!cloudy || wanted(Run::Curves, quick, one.curves))) {
     Method method{"analytic", false, levelSettings(HIGH)};
     method.settings.analytic = true;
     methods.push_back(method);

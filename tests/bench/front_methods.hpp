@@ -56,7 +56,7 @@ Settings convergedSettings(const Settings& settings);
 
 /// The four levels, and what else differs in a scene: nothing about slabs without volumes. `quick`
 /// leaves out what is costly, and what fills the curves except where the case asks for it.
-std::vector<Method> methodsFor(const Case& one, bool hasVolumes, bool quick);
+std::vector<Method> methodsFor(const Case& one, bool quick);
 
 /// The four levels.
 std::vector<Method> levelMethods();

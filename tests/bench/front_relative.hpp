@@ -29,4 +29,6 @@ struct TimedMethod {
 /// of its samples less that.
 std::vector<RelativeTime> relativeTimes(const std::vector<TimedMethod>& samples, size_t methods);
 
+double medianOf(std::vector<double> values);
+
 }  // namespace bench

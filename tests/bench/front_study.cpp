@@ -141,7 +141,7 @@ class Limits {
 // Pictures and counts of all methods.
 std::vector<Row> measureRows(const Case& one, const StudyOptions& options, Worlds& worlds,
                              const std::vector<Method>& methods, const Tell& tell) {
-  const bool hasVolumes = !worlds.of({}).scene().volumes.empty();
+  const bool cloudy = hasVolumes(one);
   const References references = readReferences(options.referenceFolder, one);
   Limits limits(worlds, options, references.converged);
   std::vector<size_t> order(methods.size());
@@ -163,7 +163,7 @@ std::vector<Row> measureRows(const Case& one, const StudyOptions& options, World
     if (single) {
       row.single = errorsOf(shot.picture, references.single, one);
     }
-    if (hasVolumes) {
+    if (cloudy) {
       row.converged = errorsOf(shot.picture, limits.of(method.settings), one);
     }
     rows.push_back(std::move(row));
@@ -173,8 +173,7 @@ std::vector<Row> measureRows(const Case& one, const StudyOptions& options, World
 
 void timeRows(const Case& one, const StudyOptions& options, Worlds& worlds, Study& study) {
   std::vector<Row>& rows = study.rows;
-  const bool hasVolumes = !worlds.of({}).scene().volumes.empty();
-  const uint32_t usual = hasVolumes ? TIMED_WIDTH_VOLUMES : TIMED_WIDTH;
+  const uint32_t usual = hasVolumes(one) ? TIMED_WIDTH_VOLUMES : TIMED_WIDTH;
   const uint32_t width = std::max(usual, one.timedWidth);
   const uint32_t scale = (width + one.width - 1) / one.width;
   const host::RasterResult opaque = worlds.of({}).makeOpaque(scale);
@@ -206,12 +205,14 @@ void timeRows(const Case& one, const StudyOptions& options, Worlds& worlds, Stud
 
 }  // namespace
 
+std::vector<Method> methodsOf(const Case& one, const StudyOptions& options) {
+  return options.levelsOnly ? levelMethods() : methodsFor(one, options.quick);
+}
+
 Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell,
                 const Study* before) {
   tell("scene");
-  const bool hasVolumes = !sceneOf(one, false).volumes.empty();
-  const std::vector<Method> methods =
-      options.levelsOnly ? levelMethods() : methodsFor(one, hasVolumes, options.quick);
+  const std::vector<Method> methods = methodsOf(one, options);
   Worlds worlds(one, methods);
   const WlkCapabilities device = worlds.of({}).capabilities();
   Study study;

@@ -42,6 +42,9 @@ struct Study {
   Ordered device;
 };
 
+/// What a study of the case measures.
+std::vector<Method> methodsOf(const Case& one, const StudyOptions& options);
+
 /// Told before each slow step.
 using Tell = std::function<void(const std::string&)>;
 

@@ -241,12 +241,6 @@ Turn warmUp(const Copies& copies, size_t warmUps) {
 
 }  // namespace
 
-double medianOf(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
 void takeSamples(const std::vector<Copies>& methods, size_t anchor, const Effort& effort,
                  std::vector<FrameTime>& samples, ProbeCores probe) {
   const bool onCores = pinDriverThreads() > 1;

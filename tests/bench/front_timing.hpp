@@ -93,6 +93,4 @@ std::vector<Timing> timingsOf(const std::vector<FrameTime>& samples, size_t meth
 std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor, size_t warmUps,
                                size_t rounds, ProbeCores probe = nullptr);
 
-double medianOf(std::vector<double> values);
-
 }  // namespace bench
