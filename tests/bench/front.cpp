@@ -152,7 +152,7 @@ class Schedule {
   double timing_s() {
     const Entry& own = cases_[index_];
     if (!quick_) {
-      timing_s_ = own.hasVolumes ? VOLUMES_s : SKY_s;
+      timing_s_ = FULL_s * share(own);
       return timing_s_;
     }
     double left = until_s_ - spent_s() - WARMING * setup(own);
@@ -179,9 +179,8 @@ class Schedule {
     double sum_s = 0.0;
     double methods = 0.0;
   };
-  // Of full runs.
-  static constexpr double VOLUMES_s = 40.0;
-  static constexpr double SKY_s = 10.0;
+  // Of full runs, for each share.
+  static constexpr double FULL_s = 2.0;
   static constexpr double LEAST_s = 2.0;
   static constexpr double MOST_s = 30.0;
   // Warm-ups' part of what a case takes beside its rounds.
@@ -192,8 +191,8 @@ class Schedule {
     const Mean& mean = one.hasVolumes ? volumes_ : sky_;
     return mean.sum_s / mean.methods * one.methods;
   }
-  // Frames of skies are a third as long, and all methods' alike.
-  static double share(const Entry& one) { return one.methods * (one.hasVolumes ? 1.0 : 0.5); }
+  // Frames of skies are shorter, and all methods' alike.
+  static double share(const Entry& one) { return one.methods * (one.hasVolumes ? 1.0 : 0.6); }
 
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::vector<Entry> cases_;
@@ -203,7 +202,7 @@ class Schedule {
   double begun_s_ = 0.0;
   double timing_s_ = 0.0;
   // What cases took so far; to begin with what one took on a loud machine of two cores.
-  Mean volumes_{20.0, 10.0};
+  Mean volumes_{20.0, 8.0};
   Mean sky_{2.5, 5.0};
 };
 
@@ -248,14 +247,14 @@ void measure(const Options& options) {
   for (size_t i = 0; i < cases.size(); ++i) {
     visit(i, nullptr);
   }
-  // Cores are loud for seconds to minutes: full runs time scenes that found them so again.
-  constexpr size_t MOST_VISITS = 4;
-  const auto isLoud = [](const Study& one) {
-    return !std::all_of(one.rows.begin(), one.rows.end(), isQuiet);
-  };
+  // Full runs time scenes again whose times are uncertain: the machine is another minutes later,
+  // and memory lies elsewhere.
+  constexpr size_t MOST_VISITS = 3;
+  constexpr double CERTAIN = 0.01;
+  const auto isCertain = [](const Row& row) { return row.timing.relativeCpu.error < CERTAIN; };
   for (size_t visits = 1; visits < MOST_VISITS && !options.quick; ++visits) {
     for (size_t i = 0; i < cases.size(); ++i) {
-      if (isLoud(studies[i])) {
+      if (!std::all_of(studies[i].rows.begin(), studies[i].rows.end(), isCertain)) {
         const Study before = studies[i];
         visit(i, &before);
       }
