@@ -6,9 +6,11 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 
 #include "bench/front_contract.hpp"
 #include "bench/front_report.hpp"
+#include "bench/memory.hpp"
 #include "common/error.hpp"
 
 namespace bench {
@@ -24,7 +26,7 @@ struct Options {
   std::string writeContract;
   std::string commit;
   std::vector<std::string> pack;
-  size_t rounds = 0;
+  size_t turns = 0;
   double until_s = 470.0;
   uint32_t timedWidth = 0;
   bool quick = false;
@@ -115,10 +117,10 @@ size_t checkContract(const Options& options) {
   return worse;
 }
 
-void print(const Case& one, const Study& result) {
+void print(const Case& one, const std::vector<Row>& rows) {
   std::printf("%-16s %-18s %9s %8s %8s %8s %12s %10s %10s %10s\n", one.name.c_str(), "method", "ms",
               "CPU", "error", "rounds", "invocations", "truth", "single", "converged");
-  for (const Row& row : result.rows) {
+  for (const Row& row : rows) {
     const auto figure = [](const Ordered& errors) {
       return errors.is_null() ? NAN : errors.at("rmseOverMean").get<double>();
     };
@@ -143,31 +145,29 @@ class Schedule {
   [[nodiscard]] double spent_s() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
-  void begin(size_t index) {
-    index_ = index;
-    begun_s_ = spent_s();
-    timing_s_ = 0.0;
+  // What case `index` took before its frames can be timed.
+  void note(size_t index, double setup_s) {
+    Mean& mean = cases_[index].hasVolumes ? volumes_ : sky_;
+    mean.sum_s += setup_s;
+    mean.methods += cases_[index].methods;
   }
-  // Of the case that was begun. Called before its warm-ups.
-  double timing_s() {
-    const Entry& own = cases_[index_];
-    if (!quick_) {
-      timing_s_ = FULL_s * share(own);
-      return timing_s_;
+  // Of the cases from `first` to before `last`, which are ready; those after are not.
+  [[nodiscard]] double timing_s(size_t first, size_t last) const {
+    double own = 0.0;
+    for (size_t i = first; i < last; ++i) {
+      own += share(cases_[i]);
     }
-    double left = until_s_ - spent_s() - WARMING * setup(own);
-    double shares = share(own);
-    for (size_t i = index_ + 1; i < cases_.size(); ++i) {
-      left -= setup(cases_[i]);
+    if (!quick_) {
+      return FULL_s * own;
+    }
+    double left = until_s_ - spent_s();
+    double shares = own;
+    for (size_t i = last; i < cases_.size(); ++i) {
+      const Mean& mean = cases_[i].hasVolumes ? volumes_ : sky_;
+      left -= mean.sum_s / mean.methods * cases_[i].methods;
       shares += share(cases_[i]);
     }
-    timing_s_ = std::clamp(left * share(own) / shares, LEAST_s, MOST_s);
-    return timing_s_;
-  }
-  void end() {
-    Mean& mean = cases_[index_].hasVolumes ? volumes_ : sky_;
-    mean.sum_s += spent_s() - begun_s_ - timing_s_;
-    mean.methods += cases_[index_].methods;
+    return left * own / shares;
   }
 
  private:
@@ -180,85 +180,98 @@ class Schedule {
     double methods = 0.0;
   };
   // Of full runs, for each share.
-  static constexpr double FULL_s = 2.0;
-  static constexpr double LEAST_s = 2.0;
-  static constexpr double MOST_s = 30.0;
-  // Warm-ups' part of what a case takes beside its rounds.
-  static constexpr double WARMING = 0.25;
+  static constexpr double FULL_s = 3.0;
 
-  // Beside the rounds.
-  [[nodiscard]] double setup(const Entry& one) const {
-    const Mean& mean = one.hasVolumes ? volumes_ : sky_;
-    return mean.sum_s / mean.methods * one.methods;
-  }
-  // Frames of skies are shorter, and all methods' alike.
-  static double share(const Entry& one) { return one.methods * (one.hasVolumes ? 1.0 : 0.6); }
+  // Frames of skies are shorter.
+  static double share(const Entry& one) { return one.methods * (one.hasVolumes ? 1.0 : 0.4); }
 
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::vector<Entry> cases_;
   bool quick_ = false;
   double until_s_ = 0.0;
-  size_t index_ = 0;
-  double begun_s_ = 0.0;
-  double timing_s_ = 0.0;
-  // What cases took so far; to begin with what one took on a loud machine of two cores.
+  // To begin with what one took on a loud machine of two cores.
   Mean volumes_{20.0, 8.0};
   Mean sky_{2.5, 5.0};
 };
 
+// Cases whose contexts are there together and whose frames are timed in turn, so that one minute's
+// loud machine is not one case's.
+class Group {
+ public:
+  // From case `first` on, as many as leave a quarter of the memory.
+  Group(const std::vector<Case>& cases, size_t first, const StudyOptions& study,
+        Schedule& schedule) {
+    uint64_t most = 0;
+    do {
+      const size_t index = first + studies_.size();
+      const auto tell = [&](const std::string& step) {
+        std::fprintf(stderr, "%5.0f s %s: %s\n", schedule.spent_s(), cases[index].name.c_str(),
+                     step.c_str());
+      };
+      const uint64_t before = memoryNow().available;
+      const double start_s = schedule.spent_s();
+      studies_.push_back(std::make_unique<CaseStudy>(cases[index], study, tell));
+      schedule.note(index, schedule.spent_s() - start_s);
+      most = std::max(most, before - std::min(before, memoryNow().available));
+    } while (first + studies_.size() < cases.size() && hasRoom(most));
+  }
+  void takeTurn() {
+    for (const std::unique_ptr<CaseStudy>& study : studies_) {
+      study->takeBlock();
+    }
+  }
+  [[nodiscard]] size_t size() const { return studies_.size(); }
+  [[nodiscard]] const CaseStudy& operator[](size_t index) const { return *studies_[index]; }
+
+ private:
+  static bool hasRoom(uint64_t more) {
+    constexpr uint64_t KEPT = 4;
+    const Memory memory = memoryNow();
+    return memory.available > memory.total / KEPT + more;
+  }
+
+  std::vector<std::unique_ptr<CaseStudy>> studies_;
+};
+
 void measure(const Options& options) {
-  constexpr size_t ROUNDS = 30;
-  constexpr size_t QUICK_ROUNDS = 8;
   const std::vector<Case> cases = chosenCases(options);
-  StudyOptions study;
-  study.rounds = options.rounds != 0 ? options.rounds : (options.quick ? QUICK_ROUNDS : ROUNDS);
-  study.quick = options.quick;
-  study.levelsOnly = options.levelsOnly;
-  study.referenceFolder = options.references;
+  const StudyOptions study{options.quick, options.levelsOnly, options.references};
   Schedule schedule(cases, study, options.until_s);
-  study.timing_s = [&] { return options.rounds != 0 ? 0.0 : schedule.timing_s(); };
-  Ordered report = reportHead(options.commit, study.rounds, options.quick);
-  std::vector<Study> studies(cases.size());
-  const auto visit = [&](size_t index, const Study* before) {
-    const auto tell = [&](const std::string& step) {
-      std::fprintf(stderr, "%5.0f s %s: %s\n", schedule.spent_s(), cases[index].name.c_str(),
-                   step.c_str());
+  Ordered report = reportHead(options.commit, options.quick);
+  report["rows"] = Ordered::array();
+  for (size_t first = 0; first < cases.size();) {
+    Group group(cases, first, study, schedule);
+    const size_t last = first + group.size();
+    const double start_s = schedule.spent_s();
+    const double timing_s = schedule.timing_s(first, last);
+    std::fprintf(stderr, "%5.0f s %zu cases in turn\n", start_s, group.size());
+    double turn_s = 0.0;
+    const auto hasTime = [&] {
+      return schedule.spent_s() - start_s + 0.5 * turn_s < timing_s;
     };
-    schedule.begin(index);
-    Study result = studyCase(cases[index], study, tell, before);
-    schedule.end();
-    report["device"] = result.device;
-    print(cases[index], result);
-    studies[index] = std::move(result);
-    // After every case: a run that is cut short leaves what it has.
-    report["rows"] = Ordered::array();
-    for (size_t i = 0; i < cases.size(); ++i) {
-      for (const Row& row : studies[i].rows) {
-        report["rows"].push_back(reportRow(cases[i], row));
+    size_t turns = 0;
+    do {
+      const double before_s = schedule.spent_s();
+      group.takeTurn();
+      turn_s = schedule.spent_s() - before_s;
+      ++turns;
+    } while (options.turns != 0 ? turns < options.turns : hasTime());
+    for (size_t i = 0; i < group.size(); ++i) {
+      const std::vector<Row> rows = group[i].rows();
+      print(cases[first + i], rows);
+      for (const Row& row : rows) {
+        report["rows"].push_back(reportRow(cases[first + i], row));
       }
     }
+    report["device"] = group[0].device();
+    // After every group: a run that is cut short leaves what it has.
     if (!options.json.empty()) {
       writeJson(options.json, report);
     }
     if (!options.csv.empty()) {
       writeCsv(options.csv, report["rows"]);
     }
-  };
-  for (size_t i = 0; i < cases.size(); ++i) {
-    visit(i, nullptr);
-  }
-  // Full runs time scenes again whose times are uncertain: the machine is another minutes later,
-  // and memory lies elsewhere.
-  constexpr size_t MOST_VISITS = 3;
-  constexpr double CERTAIN = 0.01;
-  const auto isCertain = [](const Row& row) { return row.timing.relativeCpu.error < CERTAIN; };
-  for (size_t visits = 1; visits < MOST_VISITS && !options.quick; ++visits) {
-    for (size_t i = 0; i < cases.size(); ++i) {
-      if (!std::all_of(studies[i].rows.begin(), studies[i].rows.end(), isCertain)) {
-        const Study before = studies[i];
-        visit(i, &before);
-      }
-    }
+    first = last;
   }
 }
 
@@ -282,9 +295,9 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--case", options.names, "Only this case; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--rounds", options.rounds,
-                 "Interleaved rounds, more of cheap and uncertain ones, for all the time they take "
-                 "(default: as many as there is time for)");
+  app.add_option("--turns", options.turns,
+                 "Turns of all cases, of two rounds of every method (default: as many as there is "
+                 "time for)");
   app.add_option("--until", options.until_s,
                  "Quick runs: share about so many seconds (default 470)");
   app.add_option("--timed-width", options.timedWidth,

@@ -54,12 +54,13 @@ Mean middleMean(std::vector<double> values) {
 
 // What the samples around add to their methods' times: the median, since a mean of samples that are
 // often the same methods' would amplify what middle means leave out.
-double addedAround(const std::vector<double>& added, size_t at) {
+double addedAround(const std::vector<TimedMethod>& samples, const std::vector<double>& added,
+                   size_t at) {
   const size_t first = at - std::min(at, NEIGHBOURS);
   const size_t last = std::min(at + NEIGHBOURS + 1, added.size());
   std::vector<double> around;
   for (size_t k = first; k < last; ++k) {
-    if (k != at) {
+    if (k != at && samples[k].block == samples[at].block) {
       around.push_back(added[k]);
     }
   }
@@ -106,7 +107,7 @@ std::vector<RelativeTime> relativeTimes(const std::vector<TimedMethod>& samples,
       added[k] = logs[k] - means[samples[k].method].value;
     }
     for (size_t k = 0; k < samples.size(); ++k) {
-      own[k] = logs[k] - addedAround(added, k);
+      own[k] = logs[k] - addedAround(samples, added, k);
     }
     const std::vector<Mean> next = meansOf(samples, own, methods);
     moved = 0.0;

@@ -20,6 +20,8 @@ struct RelativeTime {
 struct TimedMethod {
   size_t method = 0;
   double time = 0.0;  // > 0, any unit
+  /// What was taken in other blocks tells nothing of how fast the machine was.
+  size_t block = 0;
 };
 
 /// `samples`: in the order taken, of `methods` methods, each there once at least; not always the

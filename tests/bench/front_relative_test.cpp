@@ -54,6 +54,21 @@ TEST(FrontRelative, WhatTheMachineAddsIsTakenOff) {
   }
 }
 
+// The machine is another in every block, and blocks end with the same method: what comes after in
+// the list says nothing of it.
+TEST(FrontRelative, BlocksDoNotTellOfEachOther) {
+  std::vector<TimedMethod> samples;
+  for (size_t block = 0; block < 12; ++block) {
+    for (size_t k = 0; k < METHODS; ++k) {
+      samples.push_back({k, (1.0 + static_cast<double>(block)) * truth(k), block});
+    }
+  }
+  const std::vector<RelativeTime> times = relativeTimes(samples, METHODS);
+  for (size_t i = 0; i < METHODS; ++i) {
+    EXPECT_NEAR(times[i].time, truth(i), 1e-6 * truth(i));  // where iterations end
+  }
+}
+
 struct Spread {
   double said = 0.0;
   double rms = 0.0;

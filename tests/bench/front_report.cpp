@@ -68,14 +68,13 @@ void save(const std::string& file, const std::string& text) {
 
 }  // namespace
 
-Ordered reportHead(const std::string& commit, size_t rounds, bool quick) {
+Ordered reportHead(const std::string& commit, bool quick) {
   return {
       {"schema", 3},
       {"machine", machine()},
       {"device", Ordered::object()},
       {"build",
        {{"commit", commit}, {"compiler", __VERSION__}, {"version", versionText(wlkGetVersion())}}},
-      {"rounds", rounds},
       {"quick", quick},
       {"rows", Ordered::array()}};
 }

@@ -9,7 +9,7 @@
 namespace bench {
 
 /// Everything but the rows and the device: machine, build.
-Ordered reportHead(const std::string& commit, size_t rounds, bool quick);
+Ordered reportHead(const std::string& commit, bool quick);
 
 Ordered reportRow(const Case& one, const Row& row);
 

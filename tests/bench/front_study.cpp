@@ -171,70 +171,77 @@ std::vector<Row> measureRows(const Case& one, const StudyOptions& options, World
   return rows;
 }
 
-void timeRows(const Case& one, const StudyOptions& options, Worlds& worlds, Study& study) {
-  std::vector<Row>& rows = study.rows;
-  const uint32_t usual = hasVolumes(one) ? TIMED_WIDTH_VOLUMES : TIMED_WIDTH;
-  const uint32_t width = std::max(usual, one.timedWidth);
-  const uint32_t scale = (width + one.width - 1) / one.width;
-  const host::RasterResult opaque = worlds.of({}).makeOpaque(scale);
-  std::vector<Copies> frames;
-  size_t anchor = 0;
-  for (size_t i = 0; i < rows.size(); ++i) {
-    const Method& method = rows[i].method;
-    anchor = method.name == ANCHOR ? i : anchor;
-    World& world = worlds.of(method.settings);
-    Copies& copies = frames.emplace_back();
-    for (size_t copy = 0; copy < COPIES; ++copy) {
-      const WlkView view = world.addView(qualityOf(method), scale);
-      copies.emplace_back([&world, &opaque, view] {
-        world.render(view, opaque);
-        return 1e-6 * static_cast<double>(world.counts(view).gpuTime_ns);
-      });
-    }
-  }
-  for (const Row& row : rows) {
-    worlds.of(row.method.settings).prepare();
-  }
-  takeSamples(frames, anchor, {WARM_UPS, options.rounds, 1e3 * options.timing_s()}, study.samples);
-  const std::vector<Timing> timings = timingsOf(study.samples, rows.size(), anchor);
-  for (size_t i = 0; i < rows.size(); ++i) {
-    rows[i].timing = timings[i];
-    rows[i].timedScale = scale;
-  }
-}
-
 }  // namespace
 
 std::vector<Method> methodsOf(const Case& one, const StudyOptions& options) {
   return options.levelsOnly ? levelMethods() : methodsFor(one, options.quick);
 }
 
-Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell,
-                const Study* before) {
+struct CaseStudy::Parts {
+  Parts(const Case& one, std::vector<Method> of, const StudyOptions& options, const Tell& tell)
+      : methods(std::move(of)),
+        worlds(one, methods),
+        rows(measureRows(one, options, worlds, methods, tell)) {}
+
+  std::vector<Method> methods;
+  Worlds worlds;
+  std::vector<Row> rows;
+  size_t anchor = 0;
+  host::RasterResult opaque;  // of the timed views
+  std::unique_ptr<Sampler> sampler;
+};
+
+CaseStudy::CaseStudy(const Case& one, const StudyOptions& options, const Tell& tell) {
   tell("scene");
-  const std::vector<Method> methods = methodsOf(one, options);
-  Worlds worlds(one, methods);
-  const WlkCapabilities device = worlds.of({}).capabilities();
-  Study study;
-  study.device = {{"name", std::string(device.deviceName)},
-                  {"driver", "Vulkan " + std::to_string(device.vulkanVersion >> 22 & 0x7fu) + "." +
-                                 std::to_string(device.vulkanVersion >> 12 & 0x3ffu) + "." +
-                                 std::to_string(device.vulkanVersion & 0xfffu)}};
-  if (before == nullptr) {
-    study.rows = measureRows(one, options, worlds, methods, tell);
-  } else {
-    study.rows = before->rows;
-    study.samples = before->samples;
-    for (const Row& row : study.rows) {
-      if (staysForTiming(row.method)) {
-        tell("light of " + row.method.name);
-        shoot(worlds, qualityOf(row.method), row.method.settings, true);
-      }
+  parts_ = std::make_unique<Parts>(one, methodsOf(one, options), options, tell);
+  tell("warm-ups");
+  const uint32_t usual = hasVolumes(one) ? TIMED_WIDTH_VOLUMES : TIMED_WIDTH;
+  const uint32_t width = std::max(usual, one.timedWidth);
+  const uint32_t scale = (width + one.width - 1) / one.width;
+  parts_->opaque = parts_->worlds.of({}).makeOpaque(scale);
+  std::vector<Copies> frames;
+  for (size_t i = 0; i < parts_->rows.size(); ++i) {
+    parts_->rows[i].timedScale = scale;
+    const Method& method = parts_->rows[i].method;
+    parts_->anchor = method.name == ANCHOR ? i : parts_->anchor;
+    World& world = parts_->worlds.of(method.settings);
+    Copies& copies = frames.emplace_back();
+    for (size_t copy = 0; copy < COPIES; ++copy) {
+      const WlkView view = world.addView(qualityOf(method), scale);
+      copies.emplace_back([&world, &opaque = parts_->opaque, view] {
+        world.render(view, opaque);
+        return 1e-6 * static_cast<double>(world.counts(view).gpuTime_ns);
+      });
     }
   }
-  tell("times");
-  timeRows(one, options, worlds, study);
-  return study;
+  for (const Method& method : parts_->methods) {
+    parts_->worlds.of(method.settings).prepare();
+  }
+  parts_->sampler = std::make_unique<Sampler>(std::move(frames), parts_->anchor, WARM_UPS);
+}
+
+CaseStudy::~CaseStudy() = default;
+
+void CaseStudy::takeBlock() {
+  parts_->sampler->takeBlock();
+}
+
+std::vector<Row> CaseStudy::rows() const {
+  std::vector<Row> rows = parts_->rows;
+  const std::vector<Timing> timings =
+      timingsOf(parts_->sampler->samples(), rows.size(), parts_->anchor);
+  for (size_t i = 0; i < rows.size(); ++i) {
+    rows[i].timing = timings[i];
+  }
+  return rows;
+}
+
+Ordered CaseStudy::device() const {
+  const WlkCapabilities device = parts_->worlds.of({}).capabilities();
+  return {{"name", std::string(device.deviceName)},
+          {"driver", "Vulkan " + std::to_string(device.vulkanVersion >> 22 & 0x7fu) + "." +
+                         std::to_string(device.vulkanVersion >> 12 & 0x3ffu) + "." +
+                         std::to_string(device.vulkanVersion & 0xfffu)}};
 }
 
 bool isQuiet(const Row& row) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// One case measured: pictures, errors, counts and interleaved times (ms) of every method.
+// A case measured: pictures, errors, counts and interleaved times (ms) of every method.
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "bench/front_errors.hpp"
@@ -13,11 +15,6 @@
 namespace bench {
 
 struct StudyOptions {
-  /// At least.
-  size_t rounds = 15;
-  /// Rounds go on for so long. Asked when all pictures are made; the timed frames' warm-ups are
-  /// still to come.
-  std::function<double()> timing_s = [] { return 0.0; };
   /// Fewer methods, and only the converged pictures that lie in the folder.
   bool quick = false;
   bool levelsOnly = false;
@@ -35,23 +32,31 @@ struct Row {
   uint32_t timedScale = 1;
 };
 
-struct Study {
-  std::vector<Row> rows;
-  /// Of all visits, in the order taken.
-  std::vector<FrameTime> samples;
-  Ordered device;
-};
-
 /// What a study of the case measures.
 std::vector<Method> methodsOf(const Case& one, const StudyOptions& options);
 
 /// Told before each slow step.
 using Tell = std::function<void(const std::string&)>;
 
-/// `before`: an earlier study of the case, whose errors and counts are taken over, and whose times
-/// count with the new ones.
-Study studyCase(const Case& one, const StudyOptions& options, const Tell& tell,
-                const Study* before = nullptr);
+/// Holds the case's contexts, so that several cases can be timed in turn.
+class CaseStudy {
+ public:
+  /// Pictures, errors and counts; the timed frames' warm-ups.
+  CaseStudy(const Case& one, const StudyOptions& options, const Tell& tell);
+  ~CaseStudy();
+  CaseStudy(const CaseStudy&) = delete;
+  CaseStudy& operator=(const CaseStudy&) = delete;
+
+  /// Times every method, Sampler::takeBlock.
+  void takeBlock();
+  /// After a block at least.
+  [[nodiscard]] std::vector<Row> rows() const;
+  [[nodiscard]] Ordered device() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
 
 /// Whether at least half of its rounds were on quiet cores, quiet as far as the process knows by
 /// now.

@@ -44,8 +44,8 @@ constexpr size_t UNSURE_ROUNDS = 2;
 // Unless so many rounds had nothing quiet.
 constexpr size_t LOUD_ROUNDS = 3;
 
-// All rounds of a set of methods wait so long for quiet cores, or such a part of the time they
-// have.
+// All rounds of a set of methods wait so long for quiet cores, blocks such a part of what those
+// before took.
 constexpr double PATIENCE_ms = 2500.0;
 constexpr double PATIENCE = 0.1;
 
@@ -76,32 +76,6 @@ FrameTime timeFrames(const RenderFrame& frame, size_t repeats) {
   sample.gpu /= count;
   return sample;
 }
-
-// Cores between samples.
-class Cores {
- public:
-  Cores(ProbeCores probe, double patience_ms)
-      : probe_(std::move(probe)), state_(probe_(0.0)), patience_ms_(patience_ms) {}
-  // Waits for quiet cores as long as patience lasts.
-  void await() {
-    if (!areQuiet(state_)) {
-      const double start = wallClock_ms();
-      state_ = probe_(patience_ms_);
-      patience_ms_ = std::max(patience_ms_ - (wallClock_ms() - start), 0.0);
-    }
-  }
-  // The worse of before and after what was done since the call before.
-  CoreState around() {
-    const CoreState before = std::exchange(state_, probe_(0.0));
-    return {std::max(before.handover_ns, state_.handover_ns),
-            std::max(before.work_ns, state_.work_ns)};
-  }
-
- private:
-  ProbeCores probe_;
-  CoreState state_;
-  double patience_ms_;
-};
 
 std::vector<double> ratios(const std::vector<FrameTime>& samples,
                            const std::vector<FrameTime>& anchor, double FrameTime::*time) {
@@ -204,110 +178,165 @@ std::vector<RelativeTime> relate(const std::vector<FrameTime>& samples, size_t m
                                  double FrameTime::*time) {
   std::vector<TimedMethod> timed;
   for (const FrameTime& sample : samples) {
-    timed.push_back({sample.method, sample.*time});
+    timed.push_back({sample.method, sample.*time, sample.block});
   }
   return relativeTimes(timed, methods);
 }
 
+}  // namespace
+
 // How one method is timed.
-struct Turn {
+struct Sampler::Turn {
   double frame_ms = std::numeric_limits<double>::infinity();
   size_t repeats = 1;
   size_t copies = 1;
   /// Rounds from one timing to the next.
   size_t stride = 1;
+
+  Turn(const Copies& frames, size_t warmUps) : copies(frames.size()) {
+    for (size_t copy = 0; copy < frames.size(); ++copy) {
+      double spent = 0.0;
+      for (size_t k = 0; k < warmUps && spent < LONG_WARM_UP_ms; ++k) {
+        const double wall = timeFrames(frames[copy], 1).wall;
+        frame_ms = std::min(frame_ms, wall);
+        spent += copy == 0 && k == 0 ? 0.0 : wall;
+        if (wall > LONG_FIRST_ms) {
+          copies = 1;
+        }
+      }
+      if (copies == 1) {
+        break;
+      }
+    }
+    const double wanted = std::ceil(MIN_ROUND_ms / std::max(frame_ms, 1e-3));
+    repeats = std::clamp<size_t>(static_cast<size_t>(wanted), 1, MAX_REPEATS);
+    const double longer = frame_ms / (LONG_ROUND * MIN_ROUND_ms);
+    stride = std::clamp<size_t>(1 + static_cast<size_t>(longer), 1, MAX_STRIDE);
+  }
+  [[nodiscard]] double round_ms() const {
+    return frame_ms * static_cast<double>(repeats) / static_cast<double>(stride);
+  }
 };
 
-Turn warmUp(const Copies& copies, size_t warmUps) {
-  Turn turn;
-  turn.copies = copies.size();
-  for (size_t copy = 0; copy < turn.copies; ++copy) {
-    double spent = 0.0;
-    for (size_t k = 0; k < warmUps && spent < LONG_WARM_UP_ms; ++k) {
-      const double wall = timeFrames(copies[copy], 1).wall;
-      turn.frame_ms = std::min(turn.frame_ms, wall);
-      spent += copy == 0 && k == 0 ? 0.0 : wall;
-      if (wall > LONG_FIRST_ms) {
-        turn.copies = 1;
-      }
+// Cores between samples.
+class Sampler::Cores {
+ public:
+  Cores(const ProbeCores& probe, double patience_ms)
+      : probe_(probe), state_(probe_(0.0)), patience_ms_(patience_ms) {}
+  // Waits for quiet cores as long as patience lasts; how long it did.
+  double await() {
+    if (areQuiet(state_) || patience_ms_ <= 0.0) {
+      return 0.0;
     }
+    const double start = wallClock_ms();
+    state_ = probe_(patience_ms_);
+    const double waited = wallClock_ms() - start;
+    patience_ms_ -= waited;
+    return waited;
   }
-  const double wanted = std::ceil(MIN_ROUND_ms / std::max(turn.frame_ms, 1e-3));
-  turn.repeats = std::clamp<size_t>(static_cast<size_t>(wanted), 1, MAX_REPEATS);
-  const double longer = turn.frame_ms / (LONG_ROUND * MIN_ROUND_ms);
-  turn.stride = std::clamp<size_t>(1 + static_cast<size_t>(longer), 1, MAX_STRIDE);
-  return turn;
+  // The worse of before and after what was done since the call before.
+  CoreState around() {
+    const CoreState before = std::exchange(state_, probe_(0.0));
+    return {std::max(before.handover_ns, state_.handover_ns),
+            std::max(before.work_ns, state_.work_ns)};
+  }
+
+ private:
+  const ProbeCores& probe_;
+  CoreState state_;
+  double patience_ms_;
+};
+
+Sampler::Sampler(std::vector<Copies> methods, size_t anchor, size_t warmUps, ProbeCores probe)
+    : methods_(std::move(methods)),
+      anchor_(anchor),
+      probe_(std::move(probe)),
+      random_(ORDERS_SEED),
+      taken_(methods_.size()) {
+  const bool onCores = pinDriverThreads() > 1;
+  if (!probe_) {
+    probe_ = onCores ? awaitQuietCores : [](double) { return CoreState{}; };
+  }
+  for (const Copies& copies : methods_) {
+    turns_.emplace_back(copies, warmUps);
+  }
+  turns_[anchor_].stride = 1;
 }
 
-}  // namespace
+Sampler::~Sampler() = default;
 
-void takeSamples(const std::vector<Copies>& methods, size_t anchor, const Effort& effort,
-                 std::vector<FrameTime>& samples, ProbeCores probe) {
-  const bool onCores = pinDriverThreads() > 1;
-  if (!probe) {
-    probe = onCores ? awaitQuietCores : [](double) { return CoreState{}; };
+void Sampler::take(Cores& cores, std::vector<size_t> due) {
+  std::shuffle(due.begin(), due.end(), random_);
+  for (const size_t i : due) {
+    waited_ms_ += cores.await();
+    const RenderFrame& frame = methods_[i][taken_[i]++ % turns_[i].copies];
+    FrameTime sample = timeFrames(frame, turns_[i].repeats);
+    sample.method = i;
+    sample.round = round_;
+    sample.block = block_;
+    sample.cores = cores.around();
+    samples_.push_back(sample);
   }
-  std::vector<Turn> turns;
-  double round_ms = 0;
-  for (size_t i = 0; i < methods.size(); ++i) {
-    turns.push_back(warmUp(methods[i], effort.warmUps));
-    if (i == anchor) {
-      turns[i].stride = 1;
+  ++round_;
+}
+
+void Sampler::takeRound(Cores& cores) {
+  std::vector<size_t> due;
+  for (size_t i = 0; i < methods_.size(); ++i) {
+    if ((i + round_) % turns_[i].stride == 0) {
+      due.push_back(i);
     }
-    round_ms += turns[i].frame_ms * static_cast<double>(turns[i].repeats) /
-                static_cast<double>(turns[i].stride);
   }
+  take(cores, std::move(due));
+}
+
+void Sampler::takeBlock() {
+  const double start = wallClock_ms();
+  Cores cores(probe_, PATIENCE * spent_ms_ - waited_ms_);
+  for (size_t i = 0; i < MAX_STRIDE; ++i) {
+    takeRound(cores);
+  }
+  ++block_;
+  spent_ms_ += wallClock_ms() - start;
+}
+
+void Sampler::takeRounds(size_t rounds) {
+  double round_ms = 0.0;
+  for (const Turn& turn : turns_) {
+    round_ms += turn.round_ms();
+  }
+  Cores cores(probe_, PATIENCE_ms);
   const auto fill = static_cast<size_t>(MIN_STUDY_ms / round_ms);
-  const bool timed = effort.least_ms > 0.0;
-  const size_t more = timed ? effort.rounds : MORE_ROUNDS * effort.rounds;
-  const size_t rounds = std::max(std::clamp(fill, effort.rounds, more), MAX_STRIDE);
-  Cores cores(std::move(probe), timed ? PATIENCE * effort.least_ms : PATIENCE_ms);
-  std::mt19937 random(ORDERS_SEED);
-  std::vector<size_t> taken(methods.size());
-  size_t round = samples.empty() ? 0 : samples.back().round + 1;
+  const size_t most = std::max(std::clamp(fill, rounds, MORE_ROUNDS * rounds), MAX_STRIDE);
   size_t loud = 0;  // rounds since there was a quiet sample
-  const auto time = [&](const std::vector<size_t>& due) {
-    bool someQuiet = false;
-    for (const size_t i : due) {
-      cores.await();
-      const RenderFrame& frame = methods[i][taken[i]++ % turns[i].copies];
-      FrameTime sample = timeFrames(frame, turns[i].repeats);
-      sample.method = i;
-      sample.round = round;
-      sample.cores = cores.around();
-      someQuiet = someQuiet || areQuiet(sample.cores);
-      samples.push_back(sample);
-    }
-    ++round;
+  const auto note = [&](size_t before) {
+    const auto first = samples_.begin() + static_cast<ptrdiff_t>(before);
+    const bool someQuiet = std::any_of(
+        first, samples_.end(), [](const FrameTime& sample) { return areQuiet(sample.cores); });
     loud = someQuiet ? 0 : loud + 1;
   };
-  const double start = wallClock_ms();
-  for (size_t done = 0; done < rounds || wallClock_ms() - start < effort.least_ms; ++done) {
-    std::vector<size_t> due;
-    for (size_t k = 0; k < methods.size(); ++k) {
-      if ((k + done) % turns[k].stride == 0) {
-        due.push_back(k);
-      }
-    }
-    std::shuffle(due.begin(), due.end(), random);
-    time(due);
+  for (size_t done = 0; done < most; ++done) {
+    const size_t before = samples_.size();
+    takeRound(cores);
+    note(before);
   }
-  const size_t unsure = timed ? 0 : UNSURE_ROUNDS * effort.rounds;
-  for (size_t done = 0; done < unsure && loud < LOUD_ROUNDS; ++done) {
-    const std::vector<std::vector<FrameTime>> own = byMethod(samples, methods.size());
-    std::vector<size_t> due = {anchor};
-    for (size_t i = 0; i < methods.size(); ++i) {
-      const bool timely = done < effort.rounds || turns[i].frame_ms < LONG_ROUND * MIN_ROUND_ms;
-      if (i != anchor && timely && isUnsure(own[i])) {
+  for (size_t done = 0; done < UNSURE_ROUNDS * rounds && loud < LOUD_ROUNDS; ++done) {
+    const std::vector<std::vector<FrameTime>> own = byMethod(samples_, methods_.size());
+    std::vector<size_t> due = {anchor_};
+    for (size_t i = 0; i < methods_.size(); ++i) {
+      const bool timely = done < rounds || turns_[i].frame_ms < LONG_ROUND * MIN_ROUND_ms;
+      if (i != anchor_ && timely && isUnsure(own[i])) {
         due.push_back(i);
       }
     }
-    if (due.size() == 1 && !isUnsure(own[anchor])) {
+    if (due.size() == 1 && !isUnsure(own[anchor_])) {
       break;
     }
-    std::shuffle(due.begin(), due.end(), random);
-    time(due);
+    const size_t before = samples_.size();
+    take(cores, std::move(due));
+    note(before);
   }
+  ++block_;
 }
 
 std::vector<Timing> timingsOf(const std::vector<FrameTime>& samples, size_t methods,
@@ -334,9 +363,9 @@ std::vector<Timing> timingsOf(const std::vector<FrameTime>& samples, size_t meth
 
 std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor, size_t warmUps,
                                size_t rounds, ProbeCores probe) {
-  std::vector<FrameTime> samples;
-  takeSamples(methods, anchor, {warmUps, rounds}, samples, std::move(probe));
-  return timingsOf(samples, methods.size(), anchor);
+  Sampler sampler(methods, anchor, warmUps, std::move(probe));
+  sampler.takeRounds(rounds);
+  return timingsOf(sampler.samples(), methods.size(), anchor);
 }
 
 }  // namespace bench

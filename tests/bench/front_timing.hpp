@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <random>
 #include <vector>
 
 #include "bench/cores.hpp"
@@ -61,6 +62,8 @@ using ProbeCores = std::function<CoreState(double)>;
 struct FrameTime {
   size_t method = 0;
   size_t round = 0;
+  /// What stands beside each other in one block was taken one right after another.
+  size_t block = 0;
   double wall = 0.0;
   double cpu = 0.0;
   double gpu = 0.0;
@@ -68,28 +71,51 @@ struct FrameTime {
   CoreState cores;
 };
 
-struct Effort {
-  /// Frames of each copy before any is timed.
-  size_t warmUps = 1;
-  /// At least.
-  size_t rounds = 1;
-  /// Rounds go on until they took so long. 0: cheap sets of methods get more rounds, and methods
-  /// whose fastest quiet rounds differ.
-  double least_ms = 0.0;
-};
+/// Times several methods in turn: every method once per round, in another order each round, each
+/// when cores are quiet, or when it has waited too long for that. A frame too short to time alone
+/// is repeated and its mean taken, long frames miss some rounds.
+class Sampler {
+ public:
+  /// Gives the driver's threads a core each, then calls every copy as often as its warm-ups ask.
+  /// `probe`: awaitQuietCores if there is none and the driver's threads are on several cores.
+  Sampler(std::vector<Copies> methods, size_t anchor, size_t warmUps, ProbeCores probe = nullptr);
+  ~Sampler();
+  Sampler(const Sampler&) = delete;
+  Sampler& operator=(const Sampler&) = delete;
 
-/// Gives the driver's threads a core each, calls every copy as often as its warm-ups ask, then
-/// every method once per round, in another order each round, each when cores are quiet, until it
-/// has waited 2.5 s or a tenth of `least_ms` for that; a frame too short to time alone is repeated
-/// and its mean taken, long frames miss some rounds. Appends to `samples` in the order taken.
-/// `probe`: awaitQuietCores if there is none and the driver's threads are on several cores.
-void takeSamples(const std::vector<Copies>& methods, size_t anchor, const Effort& effort,
-                 std::vector<FrameTime>& samples, ProbeCores probe = nullptr);
+  /// Rounds in which every method is timed, one right after another: a block of its own. Waits for
+  /// a tenth of its time.
+  void takeBlock();
+  /// So many rounds at least, all one block; cheap sets of methods get more, and methods whose
+  /// fastest quiet rounds differ. Waits 2.5 s at the most.
+  void takeRounds(size_t rounds);
+  /// In the order taken.
+  [[nodiscard]] const std::vector<FrameTime>& samples() const { return samples_; }
+
+ private:
+  struct Turn;
+  class Cores;
+
+  void takeRound(Cores& cores);
+  void take(Cores& cores, std::vector<size_t> due);
+
+  std::vector<Copies> methods_;
+  size_t anchor_;
+  ProbeCores probe_;
+  std::vector<Turn> turns_;
+  std::mt19937 random_;
+  std::vector<size_t> taken_;  // by method
+  size_t round_ = 0;
+  size_t block_ = 0;
+  double spent_ms_ = 0.0;
+  double waited_ms_ = 0.0;
+  std::vector<FrameTime> samples_;
+};
 
 /// Each method has a sample at least, and in its rounds the anchor has one.
 std::vector<Timing> timingsOf(const std::vector<FrameTime>& samples, size_t methods, size_t anchor);
 
-/// Both.
+/// Times of `rounds` rounds, Sampler::takeRounds.
 std::vector<Timing> interleave(const std::vector<Copies>& methods, size_t anchor, size_t warmUps,
                                size_t rounds, ProbeCores probe = nullptr);
 

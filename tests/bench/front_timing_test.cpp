@@ -46,19 +46,48 @@ TEST(FrontTiming, RelativeTimesAreOverThoseOfAllMethods) {
   EXPECT_NEAR(timings[0].relativeCpu.time * timings[1].relativeCpu.time, 1.0, 1e-9);
 }
 
-// Two visits of 300 ms count as one of 600: frames of 10 ms take 60 rounds, less what probes take.
-TEST(FrontTiming, RoundsGoOnForAsLongAsTheyAreTold) {
-  const Copies copies = {[] { return spin(10.0); }};
-  std::vector<FrameTime> samples;
-  takeSamples({copies}, 0, {1, 2, 300.0}, samples);
-  const size_t first = samples.size();
-  EXPECT_GT(first, 10u);
-  EXPECT_LE(first, 31u);
-  takeSamples({copies}, 0, {1, 2, 300.0}, samples);
-  EXPECT_EQ(samples[first].round, samples[first - 1].round + 1);
-  const std::vector<Timing> timings = timingsOf(samples, 1, 0);
-  EXPECT_EQ(timings[0].rounds, samples.size());
-  EXPECT_GT(samples.size(), first + 10);
+// A method whose frames take longer than 100 ms is timed in one of a block's two rounds.
+TEST(FrontTiming, BlocksHoldEveryMethod) {
+  size_t second = 0;
+  const Copies shortOne = {[] { return spin(10.0); }};
+  const Copies longOne = {[] { return spin(110.0); }, [&second] {
+                            ++second;
+                            return spin(110.0);
+                          }};
+  Sampler sampler({shortOne, longOne}, 0, 1);
+  const size_t warmedUp = second;
+  constexpr size_t BLOCKS = 4;
+  for (size_t i = 0; i < BLOCKS; ++i) {
+    sampler.takeBlock();
+  }
+  const std::vector<FrameTime>& samples = sampler.samples();
+  ASSERT_EQ(samples.size(), 3 * BLOCKS);
+  for (size_t i = 0; i < samples.size(); ++i) {
+    EXPECT_EQ(samples[i].block, i / 3);
+    EXPECT_LE(samples[i].round / 2, samples[i].block);
+  }
+  EXPECT_EQ(second, warmedUp + BLOCKS / 2);  // copies go on in turn
+  const std::vector<Timing> timings = timingsOf(samples, 2, 0);
+  EXPECT_EQ(timings[0].rounds, 2 * BLOCKS);
+  EXPECT_EQ(timings[1].rounds, BLOCKS);
+}
+
+// Blocks wait for quiet cores for a tenth of what they take, and so in the long run: here every
+// probe that may wait does so for as long as it may.
+TEST(FrontTiming, BlocksWaitForATenthOfTheirTime) {
+  const CoreState loud = {2.0 * currentCores().handover_ns, 2.0 * bestCores().work_ns};
+  double waited_ms = 0.0;
+  const auto probe = [&](double patience_ms) {
+    waited_ms += spin(patience_ms);
+    return loud;
+  };
+  Sampler sampler({{[] { return spin(10.0); }}}, 0, 1, probe);
+  for (size_t i = 0; i < 10; ++i) {
+    sampler.takeBlock();
+  }
+  // Ten blocks of two rounds, and what they wait, of all but the last.
+  EXPECT_GT(waited_ms, 0.1 * 180.0 * (1.0 - FOUND));
+  EXPECT_LT(waited_ms, 0.1 * 180.0 * 1.25);
 }
 
 // Two of three frames run beside others' work, and faster than it ever does in quiet rounds, so
