@@ -210,18 +210,18 @@ class Group {
       };
       const uint64_t before = memoryNow().available;
       const double start_s = schedule.spent_s();
-      studies_.push_back(std::make_unique<CaseStudy>(cases[index], study, tell));
+      studies_.push_back(std::make_unique<FrontStudy>(cases[index], study, tell));
       schedule.note(index, schedule.spent_s() - start_s);
       most = std::max(most, before - std::min(before, memoryNow().available));
     } while (first + studies_.size() < cases.size() && hasRoom(most));
   }
   void takeTurn() {
-    for (const std::unique_ptr<CaseStudy>& study : studies_) {
+    for (const std::unique_ptr<FrontStudy>& study : studies_) {
       study->takeBlock();
     }
   }
   [[nodiscard]] size_t size() const { return studies_.size(); }
-  [[nodiscard]] const CaseStudy& operator[](size_t index) const { return *studies_[index]; }
+  [[nodiscard]] const FrontStudy& operator[](size_t index) const { return *studies_[index]; }
 
  private:
   static bool hasRoom(uint64_t more) {
@@ -230,7 +230,7 @@ class Group {
     return memory.available > memory.total / KEPT + more;
   }
 
-  std::vector<std::unique_ptr<CaseStudy>> studies_;
+  std::vector<std::unique_ptr<FrontStudy>> studies_;
 };
 
 void measure(const Options& options) {
@@ -246,9 +246,7 @@ void measure(const Options& options) {
     const double timing_s = schedule.timing_s(first, last);
     std::fprintf(stderr, "%5.0f s %zu cases in turn\n", start_s, group.size());
     double turn_s = 0.0;
-    const auto hasTime = [&] {
-      return schedule.spent_s() - start_s + 0.5 * turn_s < timing_s;
-    };
+    const auto hasTime = [&] { return schedule.spent_s() - start_s + 0.5 * turn_s < timing_s; };
     size_t turns = 0;
     do {
       const double before_s = schedule.spent_s();

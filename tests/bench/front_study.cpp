@@ -177,7 +177,7 @@ std::vector<Method> methodsOf(const Case& one, const StudyOptions& options) {
   return options.levelsOnly ? levelMethods() : methodsFor(one, options.quick);
 }
 
-struct CaseStudy::Parts {
+struct FrontStudy::Parts {
   Parts(const Case& one, std::vector<Method> of, const StudyOptions& options, const Tell& tell)
       : methods(std::move(of)),
         worlds(one, methods),
@@ -191,7 +191,7 @@ struct CaseStudy::Parts {
   std::unique_ptr<Sampler> sampler;
 };
 
-CaseStudy::CaseStudy(const Case& one, const StudyOptions& options, const Tell& tell) {
+FrontStudy::FrontStudy(const Case& one, const StudyOptions& options, const Tell& tell) {
   tell("scene");
   parts_ = std::make_unique<Parts>(one, methodsOf(one, options), options, tell);
   tell("warm-ups");
@@ -220,13 +220,13 @@ CaseStudy::CaseStudy(const Case& one, const StudyOptions& options, const Tell& t
   parts_->sampler = std::make_unique<Sampler>(std::move(frames), parts_->anchor, WARM_UPS);
 }
 
-CaseStudy::~CaseStudy() = default;
+FrontStudy::~FrontStudy() = default;
 
-void CaseStudy::takeBlock() {
+void FrontStudy::takeBlock() {
   parts_->sampler->takeBlock();
 }
 
-std::vector<Row> CaseStudy::rows() const {
+std::vector<Row> FrontStudy::rows() const {
   std::vector<Row> rows = parts_->rows;
   const std::vector<Timing> timings =
       timingsOf(parts_->sampler->samples(), rows.size(), parts_->anchor);
@@ -236,7 +236,7 @@ std::vector<Row> CaseStudy::rows() const {
   return rows;
 }
 
-Ordered CaseStudy::device() const {
+Ordered FrontStudy::device() const {
   const WlkCapabilities device = parts_->worlds.of({}).capabilities();
   return {{"name", std::string(device.deviceName)},
           {"driver", "Vulkan " + std::to_string(device.vulkanVersion >> 22 & 0x7fu) + "." +

@@ -39,13 +39,13 @@ std::vector<Method> methodsOf(const Case& one, const StudyOptions& options);
 using Tell = std::function<void(const std::string&)>;
 
 /// Holds the case's contexts, so that several cases can be timed in turn.
-class CaseStudy {
+class FrontStudy {
  public:
   /// Pictures, errors and counts; the timed frames' warm-ups.
-  CaseStudy(const Case& one, const StudyOptions& options, const Tell& tell);
-  ~CaseStudy();
-  CaseStudy(const CaseStudy&) = delete;
-  CaseStudy& operator=(const CaseStudy&) = delete;
+  FrontStudy(const Case& one, const StudyOptions& options, const Tell& tell);
+  ~FrontStudy();
+  FrontStudy(const FrontStudy&) = delete;
+  FrontStudy& operator=(const FrontStudy&) = delete;
 
   /// Times every method, Sampler::takeBlock.
   void takeBlock();

@@ -50,7 +50,8 @@ TEST(FrontTiming, RelativeTimesAreOverThoseOfAllMethods) {
 TEST(FrontTiming, BlocksHoldEveryMethod) {
   size_t second = 0;
   const Copies shortOne = {[] { return spin(10.0); }};
-  const Copies longOne = {[] { return spin(110.0); }, [&second] {
+  const Copies longOne = {[] { return spin(110.0); },
+                          [&second] {
                             ++second;
                             return spin(110.0);
                           }};

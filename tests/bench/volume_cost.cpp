@@ -109,7 +109,8 @@ int run(const Options& options) {
     writeJson(options.out, measureHalfSky(options.volume));
     return 0;
   }
-  Ordered report = reportHead(options.commit, options.volume.rounds, false);
+  Ordered report = reportHead(options.commit, false);
+  report["rounds"] = options.volume.rounds;
   report.erase("rows");
   VolumeResults results;
   if (options.from.empty()) {

@@ -147,7 +147,8 @@ void save(const Options& options, const Ordered& report) {
 }
 
 void run(const Options& options) {
-  Ordered report = reportHead(options.commit, options.rounds, options.quick);
+  Ordered report = reportHead(options.commit, options.quick);
+  report["rounds"] = options.rounds;
   if (!options.json.empty()) {
     report["rows"] = readRows(options.json);
   }
