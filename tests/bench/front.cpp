@@ -198,10 +198,11 @@ class Schedule {
 // loud machine is not one case's.
 class Group {
  public:
-  // From case `first` on, as many as leave a quarter of the memory.
+  // From case `first` on, as many as leave a quarter of the memory; one with drivers whose memory
+  // is another.
   Group(const std::vector<Case>& cases, size_t first, const StudyOptions& study,
         Schedule& schedule) {
-    uint64_t most = 0;
+    bool onCpu = false;
     do {
       const size_t index = first + studies_.size();
       const auto tell = [&](const std::string& step) {
@@ -212,8 +213,9 @@ class Group {
       const double start_s = schedule.spent_s();
       studies_.push_back(std::make_unique<FrontStudy>(cases[index], study, tell));
       schedule.note(index, schedule.spent_s() - start_s);
-      most = std::max(most, before - std::min(before, memoryNow().available));
-    } while (first + studies_.size() < cases.size() && hasRoom(most));
+      need_ = std::max(need_, before - std::min(before, memoryNow().available));
+      onCpu = studies_.back()->onCpu();
+    } while (onCpu && first + studies_.size() < cases.size() && hasRoom());
   }
   void takeTurn() {
     for (const std::unique_ptr<FrontStudy>& study : studies_) {
@@ -224,21 +226,26 @@ class Group {
   [[nodiscard]] const FrontStudy& operator[](size_t index) const { return *studies_[index]; }
 
  private:
-  static bool hasRoom(uint64_t more) {
+  static bool hasRoom() {
     constexpr uint64_t KEPT = 4;
     const Memory memory = memoryNow();
-    return memory.available > memory.total / KEPT + more;
+    return memory.available > memory.total / KEPT + need_;
   }
 
+  // The most that a case took until now, and what one with volumes does at the least: skies come
+  // first. Bytes.
+  static inline uint64_t need_ = uint64_t{2} << 30;
   std::vector<std::unique_ptr<FrontStudy>> studies_;
 };
 
 void measure(const Options& options) {
+  // Every copy once, and as many as tell a standard error.
+  constexpr size_t LEAST_TURNS = 3;
   const std::vector<Case> cases = chosenCases(options);
   const StudyOptions study{options.quick, options.levelsOnly, options.references};
   Schedule schedule(cases, study, options.until_s);
   Ordered report = reportHead(options.commit, options.quick);
-  report["rows"] = Ordered::array();
+  std::vector<std::vector<Row>> rows;  // of cases
   for (size_t first = 0; first < cases.size();) {
     Group group(cases, first, study, schedule);
     const size_t last = first + group.size();
@@ -247,18 +254,23 @@ void measure(const Options& options) {
     std::fprintf(stderr, "%5.0f s %zu cases in turn\n", start_s, group.size());
     double turn_s = 0.0;
     const auto hasTime = [&] { return schedule.spent_s() - start_s + 0.5 * turn_s < timing_s; };
+    const size_t least = options.turns != 0 ? options.turns : LEAST_TURNS;
     size_t turns = 0;
     do {
       const double before_s = schedule.spent_s();
       group.takeTurn();
       turn_s = schedule.spent_s() - before_s;
       ++turns;
-    } while (options.turns != 0 ? turns < options.turns : hasTime());
+    } while (turns < least || (options.turns == 0 && hasTime()));
     for (size_t i = 0; i < group.size(); ++i) {
-      const std::vector<Row> rows = group[i].rows();
-      print(cases[first + i], rows);
-      for (const Row& row : rows) {
-        report["rows"].push_back(reportRow(cases[first + i], row));
+      rows.push_back(group[i].rows());
+      print(cases[first + i], rows.back());
+    }
+    // All again: what is quiet depends on the best cores seen until now.
+    report["rows"] = Ordered::array();
+    for (size_t i = 0; i < last; ++i) {
+      for (const Row& row : rows[i]) {
+        report["rows"].push_back(reportRow(cases[i], row));
       }
     }
     report["device"] = group[0].device();
@@ -293,15 +305,16 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--case", options.names, "Only this case; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--turns", options.turns,
-                 "Turns of all cases, of two rounds of every method (default: as many as there is "
-                 "time for)");
+  app.add_option(
+      "--turns", options.turns,
+      "Turns of all cases, of two rounds, long frames in one (default: as many as there is "
+      "time for)");
   app.add_option("--until", options.until_s,
                  "Quick runs: share about so many seconds (default 470)");
   app.add_option("--timed-width", options.timedWidth,
                  "Least width of the pictures that are timed: GPUs draw a case's own in no time")
       ->check(CLI::Range(1, 8192));
-  app.add_flag("--quick", options.quick, "Fewer methods and rounds");
+  app.add_flag("--quick", options.quick, "Fewer methods, in less than ten minutes");
   app.add_flag("--levels-only", options.levelsOnly, "The four quality levels only");
   app.add_option("--out", options.json, "Write the results to this file (JSON)");
   app.add_option("--csv", options.csv, "Write the rows to this file (CSV)");

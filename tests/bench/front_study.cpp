@@ -8,6 +8,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "bench/driver_threads.hpp"
+
 namespace bench {
 namespace {
 
@@ -183,7 +185,7 @@ struct FrontStudy::Parts {
         worlds(one, methods),
         rows(measureRows(one, options, worlds, methods, tell)) {}
 
-  std::vector<Method> methods;
+  const std::vector<Method> methods;
   Worlds worlds;
   std::vector<Row> rows;
   size_t anchor = 0;
@@ -242,6 +244,10 @@ Ordered FrontStudy::device() const {
           {"driver", "Vulkan " + std::to_string(device.vulkanVersion >> 22 & 0x7fu) + "." +
                          std::to_string(device.vulkanVersion >> 12 & 0x3ffu) + "." +
                          std::to_string(device.vulkanVersion & 0xfffu)}};
+}
+
+bool FrontStudy::onCpu() const {
+  return pinDriverThreads() > 0;
 }
 
 bool isQuiet(const Row& row) {

@@ -52,6 +52,8 @@ class FrontStudy {
   /// After a block at least.
   [[nodiscard]] std::vector<Row> rows() const;
   [[nodiscard]] Ordered device() const;
+  /// Whether the driver works in this process, in memory of the host.
+  [[nodiscard]] bool onCpu() const;
 
  private:
   struct Parts;

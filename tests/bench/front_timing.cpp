@@ -21,7 +21,7 @@ namespace {
 // some per cent. Many short rounds follow a machine whose speed drifts better than few long ones.
 constexpr double MIN_ROUND_ms = 10.0;
 constexpr size_t MAX_REPEATS = 64;
-// Cheap scenes get more rounds, up to MORE_ROUNDS times as many.
+// Cheap sets of methods get more rounds in takeRounds, up to MORE_ROUNDS times as many.
 constexpr double MIN_STUDY_ms = 2000.0;
 constexpr size_t MORE_ROUNDS = 7;
 // Warm-ups of a copy end when they took this long, the first frame of all, which compiles, left
@@ -305,6 +305,7 @@ void Sampler::takeRounds(size_t rounds) {
   for (const Turn& turn : turns_) {
     round_ms += turn.round_ms();
   }
+  const double start = wallClock_ms();
   Cores cores(probe_, PATIENCE_ms);
   const auto fill = static_cast<size_t>(MIN_STUDY_ms / round_ms);
   const size_t most = std::max(std::clamp(fill, rounds, MORE_ROUNDS * rounds), MAX_STRIDE);
@@ -337,6 +338,7 @@ void Sampler::takeRounds(size_t rounds) {
     note(before);
   }
   ++block_;
+  spent_ms_ += wallClock_ms() - start;
 }
 
 std::vector<Timing> timingsOf(const std::vector<FrameTime>& samples, size_t methods,

@@ -22,6 +22,11 @@ Memory memoryNow() {
   // "max", which is no number: there is no limit.
   if (std::ifstream("/sys/fs/cgroup/memory.max") >> most &&
       std::ifstream("/sys/fs/cgroup/memory.current") >> current) {
+    std::ifstream stat("/sys/fs/cgroup/memory.stat");
+    uint64_t bytes = 0;
+    while (stat >> key >> bytes) {
+      current -= key == "inactive_file" ? std::min(bytes, current) : 0;
+    }
     memory.total = std::min(memory.total, most);
     memory.available = std::min(memory.available, most - std::min(current, most));
   }

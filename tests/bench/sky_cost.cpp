@@ -342,8 +342,8 @@ int run(const Options& options) {
     return 0;
   }
   Ordered report = reportHead(options.commit, false);
-  report["rounds"] = options.rounds;
   report.erase("rows");
+  report["rounds"] = options.rounds;
   std::printf(
       "| case | method | ms | CPU ms | time of lut's | CPU time of lut's | sky, %% | "
       "aerial, %% | beyond froxels, %% | transmittance, %% | first order: sky, %% | aerial, %% | "

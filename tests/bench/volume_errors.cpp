@@ -148,7 +148,9 @@ void save(const Options& options, const Ordered& report) {
 
 void run(const Options& options) {
   Ordered report = reportHead(options.commit, options.quick);
+  report.erase("rows");
   report["rounds"] = options.rounds;
+  report["rows"] = Ordered::array();
   if (!options.json.empty()) {
     report["rows"] = readRows(options.json);
   }
