@@ -200,7 +200,7 @@ std::vector<Method> methodsFor(const Case& one, bool quick) {
   }
   for (const Variation& variation : VARIATIONS) {
     // Of a sky alone only the orders of scattering make a difference. Its single scattering is
-    // arithmetic, the rest reads tables: on a core that others work on it takes 4 to 9 % more of
+    // arithmetic, the rest reads tables: on a core that others work on it takes up to 8 % less of
     // the scene's yardstick than on a quiet one, so that quick runs would not repeat.
     const bool tells = cloudy || variation.name == std::string_view("single");
     if (tells && wanted(cloudy ? variation.run : Run::Full, quick, one.curves)) {
