@@ -2,26 +2,42 @@
 #include "bench/memory.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstring>
+#include <filesystem>
 #include <vector>
 
 namespace bench {
 namespace {
 
-TEST(Memory, WhatIsTouchedIsNoLongerAvailable) {
-  constexpr uint64_t MIB = uint64_t{1} << 20;
-  const Memory before = memoryNow();
-  if (before.total == 0) {
+constexpr uint64_t MIB = uint64_t{1} << 20;
+
+TEST(Memory, NoMoreThanTheMachineHas) {
+  if (!std::filesystem::exists("/proc/meminfo")) {
     GTEST_SKIP() << "no /proc/meminfo";
   }
-  EXPECT_LE(before.available, before.total);
-  std::vector<unsigned char> block(256 * MIB);
-  std::memset(block.data(), 1, block.size());
-  // Half: other processes come and go.
-  EXPECT_LT(memoryNow().available + 128 * MIB, before.available);
-  EXPECT_EQ(memoryNow().total, before.total);
-  EXPECT_EQ(block.back(), 1);
+  const Memory memory = memoryNow();
+  const auto machine =
+      static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
+  EXPECT_GT(memory.available, 0u);
+  EXPECT_LE(memory.available, memory.total);
+  EXPECT_LE(memory.total, machine + MIB);
+}
+
+// Other processes come and go: once of ten times, and half of it.
+TEST(Memory, WhatIsTouchedIsNoLongerAvailable) {
+  if (!std::filesystem::exists("/proc/meminfo")) {
+    GTEST_SKIP() << "no /proc/meminfo";
+  }
+  bool seen = false;
+  for (size_t i = 0; i < 10 && !seen; ++i) {
+    const uint64_t before = memoryNow().available;
+    std::vector<unsigned char> block(256 * MIB);
+    std::memset(block.data(), 1, block.size());
+    seen = memoryNow().available + 128 * MIB < before && block.back() == 1;
+  }
+  EXPECT_TRUE(seen);
 }
 
 }  // namespace
