@@ -200,8 +200,9 @@ class Group {
  public:
   // From case `first` on, as many as leave a quarter of the memory; one with drivers whose memory
   // is another.
-  Group(const std::vector<Case>& cases, size_t first, const StudyOptions& study,
-        Schedule& schedule) {
+  // `need`: bytes that a case takes, the most until now.
+  Group(const std::vector<Case>& cases, size_t first, const StudyOptions& study, Schedule& schedule,
+        uint64_t& need) {
     bool onCpu = false;
     do {
       const size_t index = first + studies_.size();
@@ -213,9 +214,9 @@ class Group {
       const double start_s = schedule.spent_s();
       studies_.push_back(std::make_unique<FrontStudy>(cases[index], study, tell));
       schedule.note(index, schedule.spent_s() - start_s);
-      need_ = std::max(need_, before - std::min(before, memoryNow().available));
+      need = std::max(need, before - std::min(before, memoryNow().available));
       onCpu = studies_.back()->onCpu();
-    } while (onCpu && first + studies_.size() < cases.size() && hasRoom());
+    } while (onCpu && first + studies_.size() < cases.size() && hasRoom(need));
   }
   void takeTurn() {
     for (const std::unique_ptr<FrontStudy>& study : studies_) {
@@ -226,15 +227,12 @@ class Group {
   [[nodiscard]] const FrontStudy& operator[](size_t index) const { return *studies_[index]; }
 
  private:
-  static bool hasRoom() {
+  static bool hasRoom(uint64_t need) {
     constexpr uint64_t KEPT = 4;
     const Memory memory = memoryNow();
-    return memory.available > memory.total / KEPT + need_;
+    return memory.available > memory.total / KEPT + need;
   }
 
-  // The most that a case took until now, and what one with volumes does at the least: skies come
-  // first. Bytes.
-  static inline uint64_t need_ = uint64_t{2} << 30;
   std::vector<std::unique_ptr<FrontStudy>> studies_;
 };
 
@@ -246,8 +244,9 @@ void measure(const Options& options) {
   Schedule schedule(cases, study, options.until_s);
   Ordered report = reportHead(options.commit, options.quick);
   std::vector<std::vector<Row>> rows;  // of cases
+  uint64_t need = uint64_t{2} << 30;   // skies, which take less than volumes, come first
   for (size_t first = 0; first < cases.size();) {
-    Group group(cases, first, study, schedule);
+    Group group(cases, first, study, schedule, need);
     const size_t last = first + group.size();
     const double start_s = schedule.spent_s();
     const double timing_s = schedule.timing_s(first, last);

@@ -13,9 +13,8 @@ constexpr std::array<const char*, LEVEL_COUNT> LEVEL_NAMES = {"low", "medium", "
 
 // Which runs measure a method: quick ones, quick ones of cases with `curves`, or full ones only.
 // Quick runs share little time: what takes much of it (slabs one by one, ultra's without the light
-// that others share) would leave the rest with few samples. And they leave out whose times followed
-// the machine's state otherwise than their scene's (few slabs of single scattering, half-way
-// slicing).
+// that others share) would leave the rest with few samples. And they leave out what differed more
+// than others between runs on a loud machine (few slabs of single scattering, half-way slicing).
 enum class Run { Quick, Curves, Full };
 
 // Of forwardMethods.

@@ -55,7 +55,8 @@ WlkQuality qualityOf(const Method& method);
 Settings convergedSettings(const Settings& settings);
 
 /// The four levels, and what else differs in a scene: nothing about slabs without volumes. `quick`
-/// leaves out what is costly, and what fills the curves except where the case asks for it.
+/// leaves out what is costly, what repeats badly on machines that do other work, and what fills the
+/// curves except where the case asks for it.
 std::vector<Method> methodsFor(const Case& one, bool quick);
 
 /// The four levels.

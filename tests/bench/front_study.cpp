@@ -180,12 +180,10 @@ std::vector<Method> methodsOf(const Case& one, const StudyOptions& options) {
 }
 
 struct FrontStudy::Parts {
-  Parts(const Case& one, std::vector<Method> of, const StudyOptions& options, const Tell& tell)
-      : methods(std::move(of)),
-        worlds(one, methods),
-        rows(measureRows(one, options, worlds, methods, tell)) {}
+  Parts(const Case& one, const std::vector<Method>& methods, const StudyOptions& options,
+        const Tell& tell)
+      : worlds(one, methods), rows(measureRows(one, options, worlds, methods, tell)) {}
 
-  const std::vector<Method> methods;
   Worlds worlds;
   std::vector<Row> rows;
   size_t anchor = 0;
@@ -216,8 +214,8 @@ FrontStudy::FrontStudy(const Case& one, const StudyOptions& options, const Tell&
       });
     }
   }
-  for (const Method& method : parts_->methods) {
-    parts_->worlds.of(method.settings).prepare();
+  for (const Row& row : parts_->rows) {
+    parts_->worlds.of(row.method.settings).prepare();
   }
   parts_->sampler = std::make_unique<Sampler>(std::move(frames), parts_->anchor, WARM_UPS);
 }
