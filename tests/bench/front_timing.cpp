@@ -29,9 +29,9 @@ constexpr size_t MORE_ROUNDS = 7;
 constexpr double LONG_WARM_UP_ms = 60.0;
 // A method whose first frame takes longer than this (light of all orders) is not copied.
 constexpr double LONG_FIRST_ms = 1000.0;
-// Long frames differ less: from so many times MIN_ROUND_ms on a method is timed in every second
-// round.
-constexpr double LONG_ROUND = 10.0;
+// Times of long frames scatter some 0.7 times as much, so that half as many tell as much: from so
+// many times MIN_ROUND_ms on a method is timed in every second round. Shorter ones save too little.
+constexpr double LONG_ROUND = 25.0;
 constexpr size_t MAX_STRIDE = 2;
 // Every order has each method beside others, so that what the machine adds can be told.
 constexpr uint32_t ORDERS_SEED = 1;
