@@ -28,7 +28,7 @@ void onCores(const std::vector<size_t>& cores, const std::function<void(size_t)>
   std::vector<std::thread> threads;
   for (size_t i = 0; i < cores.size(); ++i) {
     threads.emplace_back([&, i] {
-      pinThread(gettid(), cores[i]);
+      pinThread(gettid(), {cores[i]});
       ++ready;
       while (ready < cores.size()) {
       }
@@ -70,9 +70,7 @@ CoreState& best() {
   return state;
 }
 
-}  // namespace
-
-std::vector<size_t> coresOfProcess() {
+std::vector<size_t> findCores() {
   cpu_set_t allowed;
   CPU_ZERO(&allowed);
   std::vector<size_t> cores;
@@ -86,11 +84,20 @@ std::vector<size_t> coresOfProcess() {
   return cores;
 }
 
-void pinThread(pid_t thread, size_t core) {
-  cpu_set_t one;
-  CPU_ZERO(&one);
-  CPU_SET(core, &one);
-  sched_setaffinity(thread, sizeof one, &one);
+}  // namespace
+
+const std::vector<size_t>& coresOfProcess() {
+  static const std::vector<size_t> cores = findCores();
+  return cores;
+}
+
+void pinThread(pid_t thread, const std::vector<size_t>& cores) {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  for (const size_t core : cores) {
+    CPU_SET(core, &set);
+  }
+  sched_setaffinity(thread, sizeof set, &set);
 }
 
 double coreHandover_ns() {
@@ -123,7 +130,7 @@ double coreHandover_ns() {
 double coreWork_ns() {
   constexpr size_t PARTS = 7;  // the middle one tells: others were interrupted
   static const std::vector<float> memory(CACHE_FLOATS, 1.0f);
-  const std::vector<size_t> cores = coresOfProcess();
+  const std::vector<size_t>& cores = coresOfProcess();
   std::vector<double> ofCore(std::max<size_t>(cores.size(), 1));  // 0: none known
   std::atomic<float> kept{0.0f};
   onCores(cores, [&](size_t core) {

@@ -9,11 +9,11 @@
 
 namespace bench {
 
-/// Those this process may use.
-std::vector<size_t> coresOfProcess();
+/// Those this process might use when first asked: threads may be pinned later.
+const std::vector<size_t>& coresOfProcess();
 
-/// Nothing happens to a thread that has ended.
-void pinThread(pid_t thread, size_t core);
+/// Where it may run from now on. Nothing happens to a thread that has ended.
+void pinThread(pid_t thread, const std::vector<size_t>& cores);
 
 /// What one core waits for a word that another one writes, ns: the process' first two cores, 20 to
 /// 60 if they share a cache, else 100 and more; 0 with a single one.

@@ -37,7 +37,7 @@ std::vector<Task> tasksOfProcess() {
 }  // namespace
 
 size_t pinDriverThreads() {
-  const std::vector<size_t> cores = coresOfProcess();
+  const std::vector<size_t>& cores = coresOfProcess();
   if (cores.empty()) {
     return 0;
   }
@@ -49,14 +49,27 @@ size_t pinDriverThreads() {
   for (const Task& task : tasksOfProcess()) {
     if (task.name.rfind("llvmpipe-", 0) == 0) {
       drawing = task.name == "llvmpipe-0" ? 0 : drawing;
-      pinThread(task.id, cores[drawing++ % cores.size()]);
+      pinThread(task.id, {cores[drawing++ % cores.size()]});
       dispatching = 0;
       most = std::max(most, drawing);
     } else if (dispatching < drawing) {
-      pinThread(task.id, cores[dispatching++ % cores.size()]);
+      pinThread(task.id, {cores[dispatching++ % cores.size()]});
+    } else {
+      pinThread(task.id, cores);
     }
   }
   return std::min(most, cores.size());
+}
+
+OnOneCore::OnOneCore() {
+  const std::vector<size_t>& cores = coresOfProcess();
+  for (const Task& task : tasksOfProcess()) {
+    pinThread(task.id, {cores.begin(), cores.begin() + (cores.empty() ? 0 : 1)});
+  }
+}
+
+OnOneCore::~OnOneCore() {
+  pinDriverThreads();
 }
 
 }  // namespace bench

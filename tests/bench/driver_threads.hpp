@@ -9,8 +9,18 @@ namespace bench {
 /// Gives each worker of lavapipe's pools a core of those this process may use; how many cores have
 /// one. Left to themselves both workers may wake up on one of two cores: the least CPU times of
 /// frames of a few milliseconds differed by up to 16 % between processes, by 3 % with this. Knows
-/// lavapipe's workers by their names and the order in which they are made; does nothing with other
-/// drivers. Call it when all devices are there; threads made later are left alone.
+/// lavapipe's workers by their names and the order in which they are made; all other threads may
+/// run on any core. Call it when all devices are there; threads made later are left alone.
 size_t pinDriverThreads();
+
+/// As long as it lives all threads of the process that are there share its first core: what they do
+/// then does not depend on how near cores are to each other. Leaves them as pinDriverThreads does.
+class OnOneCore {
+ public:
+  OnOneCore();
+  ~OnOneCore();
+  OnOneCore(const OnOneCore&) = delete;
+  OnOneCore& operator=(const OnOneCore&) = delete;
+};
 
 }  // namespace bench

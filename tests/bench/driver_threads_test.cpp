@@ -83,6 +83,23 @@ TEST(DriverThreads, WorkersGetACoreEach) {
   EXPECT_EQ(pool.cores(5), static_cast<int>(cores.size()));
 }
 
+TEST(DriverThreads, ShareOneCoreForAWhile) {
+  const std::vector<size_t> cores = coresOfThisThread();
+  Pool pool({"welkin", "llvmpipe-0", "llvmpipe-1", "other"});
+  {
+    const OnOneCore together;
+    EXPECT_EQ(coresOfThisThread(), std::vector<size_t>{cores.front()});
+    for (size_t thread = 0; thread < 4; ++thread) {
+      EXPECT_EQ(pool.cores(thread), 1) << thread;
+      EXPECT_TRUE(pool.runsOn(thread, cores.front())) << thread;
+    }
+  }
+  EXPECT_EQ(coresOfThisThread(), cores);
+  EXPECT_EQ(pool.cores(0), static_cast<int>(cores.size()));
+  EXPECT_TRUE(pool.runsOn(2, cores[1 % cores.size()]));
+  EXPECT_EQ(pool.cores(2), 1);
+}
+
 TEST(DriverThreads, OtherDriversAreLeftAlone) {
   Pool pool({"worker-0", "worker-1"});
   EXPECT_EQ(pinDriverThreads(), 0u);

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "bench/driver_threads.hpp"
 #include "bench/front_contract.hpp"
 #include "bench/front_report.hpp"
 #include "bench/memory.hpp"
@@ -180,7 +181,7 @@ class Schedule {
     double methods = 0.0;
   };
   // Of full runs, for each share.
-  static constexpr double FULL_s = 3.0;
+  static constexpr double FULL_s = 4.0;
 
   // Frames of skies are shorter.
   static double share(const Entry& one) { return one.methods * (one.hasVolumes ? 1.0 : 0.4); }
@@ -203,7 +204,6 @@ class Group {
   // `need`: bytes that a case takes, the most until now.
   Group(const std::vector<Case>& cases, size_t first, const StudyOptions& study, Schedule& schedule,
         uint64_t& need) {
-    bool onCpu = false;
     do {
       const size_t index = first + studies_.size();
       const auto tell = [&](const std::string& step) {
@@ -215,12 +215,17 @@ class Group {
       studies_.push_back(std::make_unique<FrontStudy>(cases[index], study, tell));
       schedule.note(index, schedule.spent_s() - start_s);
       need = std::max(need, before - std::min(before, memoryNow().available));
-      onCpu = studies_.back()->onCpu();
-    } while (onCpu && first + studies_.size() < cases.size() && hasRoom(need));
+      cores_ = studies_.back()->cores();
+    } while (cores_ > 0 && first + studies_.size() < cases.size() && hasRoom(need));
   }
+  // Two of three turns are on one core: times relative to each other then do not depend on how
+  // near the cores are to each other, which changes them by up to 9 %.
   void takeTurn() {
+    constexpr size_t PERIOD = 3;
+    const bool onOneCore = cores_ > 1 && ++turns_ % PERIOD != 0;
+    const auto together = onOneCore ? std::make_unique<OnOneCore>() : nullptr;
     for (const std::unique_ptr<FrontStudy>& study : studies_) {
-      study->takeBlock();
+      study->takeBlock(onOneCore);
     }
   }
   [[nodiscard]] size_t size() const { return studies_.size(); }
@@ -234,10 +239,12 @@ class Group {
   }
 
   std::vector<std::unique_ptr<FrontStudy>> studies_;
+  size_t cores_ = 0;  // of the driver in this process
+  size_t turns_ = 0;
 };
 
 void measure(const Options& options) {
-  // Every copy once, and as many as tell a standard error.
+  // As many as tell a standard error of what is timed on one core, and one on all cores.
   constexpr size_t LEAST_TURNS = 3;
   const std::vector<Case> cases = chosenCases(options);
   const StudyOptions study{options.quick, options.levelsOnly, options.references};

@@ -110,6 +110,7 @@ Ordered reportRow(const Case& one, const Row& row) {
           {"relativeTimeError", timing.relative.error},
           {"relativeCpuTime", timing.relativeCpu.time},
           {"relativeCpuTimeError", timing.relativeCpu.error},
+          {"oneCoreRounds", timing.oneCoreRounds},
           {"rounds", timing.rounds},
           {"quietRounds", timing.quietRounds},
           {"quiet", isQuiet(row)},

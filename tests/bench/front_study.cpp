@@ -222,8 +222,8 @@ FrontStudy::FrontStudy(const Case& one, const StudyOptions& options, const Tell&
 
 FrontStudy::~FrontStudy() = default;
 
-void FrontStudy::takeBlock() {
-  parts_->sampler->takeBlock();
+void FrontStudy::takeBlock(bool onOneCore) {
+  parts_->sampler->takeBlock(onOneCore);
 }
 
 std::vector<Row> FrontStudy::rows() const {
@@ -244,8 +244,8 @@ Ordered FrontStudy::device() const {
                          std::to_string(device.vulkanVersion & 0xfffu)}};
 }
 
-bool FrontStudy::onCpu() const {
-  return pinDriverThreads() > 0;
+size_t FrontStudy::cores() const {
+  return pinDriverThreads();
 }
 
 bool isQuiet(const Row& row) {

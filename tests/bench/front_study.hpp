@@ -48,12 +48,12 @@ class FrontStudy {
   FrontStudy& operator=(const FrontStudy&) = delete;
 
   /// Times every method, Sampler::takeBlock.
-  void takeBlock();
+  void takeBlock(bool onOneCore);
   /// After a block at least.
   [[nodiscard]] std::vector<Row> rows() const;
   [[nodiscard]] Ordered device() const;
-  /// Whether the driver works in this process, in memory of the host.
-  [[nodiscard]] bool onCpu() const;
+  /// On how many cores the driver works in this process, in memory of the host; 0: it does not.
+  [[nodiscard]] size_t cores() const;
 
  private:
   struct Parts;

@@ -251,8 +251,8 @@ Sampler::Sampler(std::vector<Copies> methods, size_t anchor, size_t warmUps, Pro
     : methods_(std::move(methods)),
       anchor_(anchor),
       probe_(std::move(probe)),
-      random_(ORDERS_SEED),
-      taken_(methods_.size()) {
+      random_(ORDERS_SEED) {
+  taken_.fill(std::vector<size_t>(methods_.size()));
   const bool onCores = pinDriverThreads() > 1;
   if (!probe_) {
     probe_ = onCores ? awaitQuietCores : [](double) { return CoreState{}; };
@@ -269,11 +269,12 @@ void Sampler::take(Cores& cores, std::vector<size_t> due) {
   std::shuffle(due.begin(), due.end(), random_);
   for (const size_t i : due) {
     waited_ms_ += cores.await();
-    const RenderFrame& frame = methods_[i][taken_[i]++ % turns_[i].copies];
+    const RenderFrame& frame = methods_[i][taken_.at(onOneCore_)[i]++ % turns_[i].copies];
     FrameTime sample = timeFrames(frame, turns_[i].repeats);
     sample.method = i;
     sample.round = round_;
     sample.block = block_;
+    sample.onOneCore = onOneCore_;
     sample.cores = cores.around();
     samples_.push_back(sample);
   }
@@ -290,7 +291,8 @@ void Sampler::takeRound(Cores& cores) {
   take(cores, std::move(due));
 }
 
-void Sampler::takeBlock() {
+void Sampler::takeBlock(bool onOneCore) {
+  onOneCore_ = onOneCore;
   const double start = wallClock_ms();
   Cores cores(probe_, PATIENCE * spent_ms_ - waited_ms_);
   for (size_t i = 0; i < MAX_STRIDE; ++i) {
@@ -301,6 +303,7 @@ void Sampler::takeBlock() {
 }
 
 void Sampler::takeRounds(size_t rounds) {
+  onOneCore_ = false;
   double round_ms = 0.0;
   for (const Turn& turn : turns_) {
     round_ms += turn.round_ms();
@@ -343,9 +346,16 @@ void Sampler::takeRounds(size_t rounds) {
 
 std::vector<Timing> timingsOf(const std::vector<FrameTime>& samples, size_t methods,
                               size_t anchor) {
-  const std::vector<std::vector<FrameTime>> own = byMethod(samples, methods);
-  const std::vector<RelativeTime> relative = relate(samples, methods, &FrameTime::wall);
-  const std::vector<RelativeTime> relativeCpu = relate(samples, methods, &FrameTime::cpu);
+  std::vector<FrameTime> all = samples;
+  const auto split = std::stable_partition(
+      all.begin(), all.end(), [](const FrameTime& sample) { return !sample.onOneCore; });
+  const std::vector<FrameTime> onOne(split, all.end());
+  all.erase(split, all.end());
+  const std::vector<FrameTime>& related = onOne.empty() ? all : onOne;
+  const std::vector<RelativeTime> relative = relate(related, methods, &FrameTime::wall);
+  const std::vector<RelativeTime> relativeCpu = relate(related, methods, &FrameTime::cpu);
+  const std::vector<std::vector<FrameTime>> own = byMethod(all, methods);
+  const std::vector<std::vector<FrameTime>> ownOnOne = byMethod(onOne, methods);
   std::map<size_t, FrameTime> anchorIn;
   for (const FrameTime& sample : own[anchor]) {
     anchorIn[sample.round] = sample;
@@ -359,6 +369,7 @@ std::vector<Timing> timingsOf(const std::vector<FrameTime>& samples, size_t meth
     Timing& timing = timings.emplace_back(summarise(own[i], anchors, own[anchor]));
     timing.relative = relative[i];
     timing.relativeCpu = relativeCpu[i];
+    timing.oneCoreRounds = ownOnOne[i].size();
   }
   return timings;
 }

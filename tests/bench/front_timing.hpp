@@ -3,6 +3,7 @@
 // all alike. ms.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <random>
@@ -16,7 +17,8 @@ namespace bench {
 /// So many rounds on quiet cores are enough to leave the others out.
 constexpr size_t ENOUGH_QUIET = 3;
 
-/// Of the method's rounds on quiet cores, of all if those are fewer than ENOUGH_QUIET.
+/// Of the method's rounds on quiet cores, of all if those are fewer than ENOUGH_QUIET. Rounds on
+/// one core count for relative times only.
 struct Timing {
   /// Median over the rounds, and the median distance from it. ms.
   double wall = 0.0;
@@ -30,9 +32,10 @@ struct Timing {
   /// frames alike, so that medians of ratios differ between runs.
   double ratio = 1.0;
   double cpuRatio = 1.0;
-  /// Of all rounds: what the machine adds is taken off.
+  /// Of all rounds on one core, of all if there are none: what the machine adds is taken off.
   RelativeTime relative;
   RelativeTime relativeCpu;
+  size_t oneCoreRounds = 0;
   /// Median over all rounds of time / anchor's time in that round; low and high: order statistics
   /// that hold the median with 95 % confidence (all rounds if there are fewer than six).
   double medianRatio = 1.0;
@@ -64,6 +67,7 @@ struct FrameTime {
   size_t round = 0;
   /// What stands beside each other in one block was taken one right after another.
   size_t block = 0;
+  bool onOneCore = false;
   double wall = 0.0;
   double cpu = 0.0;
   double gpu = 0.0;
@@ -84,8 +88,8 @@ class Sampler {
   Sampler& operator=(const Sampler&) = delete;
 
   /// Rounds in which every method is timed, one right after another: a block of its own. Waits for
-  /// a tenth of its time.
-  void takeBlock();
+  /// a tenth of its time. `onOneCore`: as the caller has placed the threads.
+  void takeBlock(bool onOneCore = false);
   /// So many rounds at least, all one block; cheap sets of methods get more, and methods whose
   /// fastest quiet rounds differ. Waits 2.5 s at the most.
   void takeRounds(size_t rounds);
@@ -104,15 +108,17 @@ class Sampler {
   ProbeCores probe_;
   std::vector<Turn> turns_;
   std::mt19937 random_;
-  std::vector<size_t> taken_;  // by method
+  std::array<std::vector<size_t>, 2> taken_;  // on all cores, on one; by method
   size_t round_ = 0;
   size_t block_ = 0;
+  bool onOneCore_ = false;
   double spent_ms_ = 0.0;
   double waited_ms_ = 0.0;
   std::vector<FrameTime> samples_;
 };
 
-/// Each method has a sample at least, and in its rounds the anchor has one.
+/// Each method has a sample at least that is not of one core, and of those too if there are any,
+/// and in its rounds the anchor has one.
 std::vector<Timing> timingsOf(const std::vector<FrameTime>& samples, size_t methods, size_t anchor);
 
 /// Times of `rounds` rounds, Sampler::takeRounds.

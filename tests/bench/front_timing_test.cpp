@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -119,6 +120,52 @@ TEST(FrontTiming, BlocksTellOfTheirOwnMachine) {
   const std::vector<Timing> timings = timingsOf(samples, 3, 0);
   EXPECT_NEAR(timings[0].relative.time, 0.5, 1e-6);  // where iterations end
   EXPECT_NEAR(timings[2].relativeCpu.time, 2.0, 2e-6);
+}
+
+// Handing over between cores makes the short frame dearer by more than the long one.
+TEST(FrontTiming, RelativeTimesAreThoseOnOneCore) {
+  std::vector<FrameTime> samples;
+  for (size_t round = 0; round < 9; ++round) {
+    for (size_t method = 0; method < 2; ++method) {
+      FrameTime sample;
+      sample.method = method;
+      sample.round = sample.block = round;
+      sample.onOneCore = round % 3 != 2;
+      sample.cpu = method == 0 ? 10.0 : 40.0;
+      sample.wall = sample.onOneCore ? sample.cpu : 0.5 * sample.cpu + 3.0;
+      samples.push_back(sample);
+    }
+  }
+  const std::vector<Timing> timings = timingsOf(samples, 2, 0);
+  EXPECT_NEAR(timings[0].relative.time, 0.5, 1e-6);
+  EXPECT_NEAR(timings[1].relative.time, 2.0, 2e-6);
+  EXPECT_EQ(timings[0].wall, 8.0);
+  EXPECT_NEAR(timings[1].medianRatio, 23.0 / 8.0, 1e-12);
+  EXPECT_EQ(timings[1].rounds, 3u);
+  EXPECT_EQ(timings[1].oneCoreRounds, 6u);
+}
+
+// Three copies, blocks of two rounds, every second one on one core.
+TEST(FrontTiming, CopiesAreTimedOnOneCoreAsOftenAsOnAll) {
+  std::array<size_t, 2> calls{};
+  Sampler sampler({{[&] {
+                      ++calls[0];
+                      return spin(10.0);
+                    },
+                    [&] {
+                      ++calls[1];
+                      return spin(10.0);
+                    },
+                    [] { return spin(10.0); }}},
+                  0, 1);
+  calls = {};
+  for (const bool onOneCore : {false, true, false, true}) {
+    sampler.takeBlock(onOneCore);
+  }
+  EXPECT_EQ(calls[0], 4u);  // rounds 0 and 3 of each
+  EXPECT_EQ(calls[1], 2u);
+  EXPECT_EQ(sampler.samples()[1].onOneCore, false);
+  EXPECT_EQ(sampler.samples()[2].onOneCore, true);
 }
 
 // Two of three frames run beside others' work, and faster than it ever does in quiet rounds, so
