@@ -70,11 +70,13 @@ CoreState& best() {
   return state;
 }
 
-std::vector<size_t> findCores() {
+}  // namespace
+
+std::vector<size_t> coresOf(pid_t thread) {
   cpu_set_t allowed;
   CPU_ZERO(&allowed);
   std::vector<size_t> cores;
-  if (sched_getaffinity(getpid(), sizeof allowed, &allowed) == 0) {
+  if (sched_getaffinity(thread, sizeof allowed, &allowed) == 0) {
     for (size_t core = 0; core < CPU_SETSIZE; ++core) {
       if (CPU_ISSET(core, &allowed)) {
         cores.push_back(core);
@@ -84,10 +86,8 @@ std::vector<size_t> findCores() {
   return cores;
 }
 
-}  // namespace
-
 const std::vector<size_t>& coresOfProcess() {
-  static const std::vector<size_t> cores = findCores();
+  static const std::vector<size_t> cores = coresOf(getpid());
   return cores;
 }
 

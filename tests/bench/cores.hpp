@@ -9,6 +9,9 @@
 
 namespace bench {
 
+/// Where the thread may run; none if it has ended.
+std::vector<size_t> coresOf(pid_t thread);
+
 /// Those this process might use when first asked: threads may be pinned later.
 const std::vector<size_t>& coresOfProcess();
 

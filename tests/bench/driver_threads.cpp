@@ -54,22 +54,25 @@ size_t pinDriverThreads() {
       most = std::max(most, drawing);
     } else if (dispatching < drawing) {
       pinThread(task.id, {cores[dispatching++ % cores.size()]});
-    } else {
-      pinThread(task.id, cores);
     }
   }
   return std::min(most, cores.size());
 }
 
 OnOneCore::OnOneCore() {
-  const std::vector<size_t>& cores = coresOfProcess();
+  if (coresOfProcess().empty()) {
+    return;
+  }
   for (const Task& task : tasksOfProcess()) {
-    pinThread(task.id, {cores.begin(), cores.begin() + (cores.empty() ? 0 : 1)});
+    before_.push_back({task.id, coresOf(task.id)});
+    pinThread(task.id, {coresOfProcess().front()});
   }
 }
 
 OnOneCore::~OnOneCore() {
-  pinDriverThreads();
+  for (const Place& place : before_) {
+    pinThread(place.thread, place.cores);
+  }
 }
 
 }  // namespace bench

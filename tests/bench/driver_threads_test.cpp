@@ -45,6 +45,13 @@ class Pool {
     return CPU_COUNT(&set);
   }
 
+  void pin(size_t index, size_t core) {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    CPU_SET(core, &set);
+    pthread_setaffinity_np(threads_[index].native_handle(), sizeof set, &set);
+  }
+
   bool runsOn(size_t index, size_t core) {
     cpu_set_t set;
     CPU_ZERO(&set);
@@ -85,25 +92,34 @@ TEST(DriverThreads, WorkersGetACoreEach) {
 
 TEST(DriverThreads, ShareOneCoreForAWhile) {
   const std::vector<size_t> cores = coresOfThisThread();
-  Pool pool({"welkin", "llvmpipe-0", "llvmpipe-1", "other"});
+  // A queue's thread, two workers for triangles, two for dispatches, and one that is somewhere.
+  Pool pool({"welkin", "llvmpipe-0", "llvmpipe-1", "welkin", "welkin", "other"});
+  pinDriverThreads();
+  pool.pin(5, cores.back());
   {
     const OnOneCore together;
     EXPECT_EQ(coresOfThisThread(), std::vector<size_t>{cores.front()});
-    for (size_t thread = 0; thread < 4; ++thread) {
+    for (size_t thread = 0; thread < 6; ++thread) {
       EXPECT_EQ(pool.cores(thread), 1) << thread;
       EXPECT_TRUE(pool.runsOn(thread, cores.front())) << thread;
     }
   }
   EXPECT_EQ(coresOfThisThread(), cores);
   EXPECT_EQ(pool.cores(0), static_cast<int>(cores.size()));
-  EXPECT_TRUE(pool.runsOn(2, cores[1 % cores.size()]));
-  EXPECT_EQ(pool.cores(2), 1);
+  for (size_t worker = 0; worker < 4; ++worker) {
+    EXPECT_EQ(pool.cores(1 + worker), 1) << worker;
+    EXPECT_TRUE(pool.runsOn(1 + worker, cores[worker % 2 % cores.size()])) << worker;
+  }
+  EXPECT_EQ(pool.cores(5), 1);
+  EXPECT_TRUE(pool.runsOn(5, cores.back()));
 }
 
 TEST(DriverThreads, OtherDriversAreLeftAlone) {
   Pool pool({"worker-0", "worker-1"});
+  pool.pin(1, coresOfThisThread().back());
   EXPECT_EQ(pinDriverThreads(), 0u);
   EXPECT_EQ(pool.cores(0), static_cast<int>(coresOfThisThread().size()));
+  EXPECT_EQ(pool.cores(1), 1);
 }
 
 }  // namespace

@@ -119,15 +119,16 @@ size_t checkContract(const Options& options) {
 }
 
 void print(const Case& one, const std::vector<Row>& rows) {
-  std::printf("%-16s %-18s %9s %8s %8s %8s %12s %10s %10s %10s\n", one.name.c_str(), "method", "ms",
-              "CPU", "error", "rounds", "invocations", "truth", "single", "converged");
+  std::printf("%-16s %-18s %9s %8s %8s %8s %8s %12s %10s %10s %10s\n", one.name.c_str(), "method",
+              "ms", "CPU", "error", "one core", "all", "invocations", "truth", "single",
+              "converged");
   for (const Row& row : rows) {
     const auto figure = [](const Ordered& errors) {
       return errors.is_null() ? NAN : errors.at("rmseOverMean").get<double>();
     };
-    std::printf("%-16s %-18s %9.3f %8.4f %8.4f %8zu %12llu %10.3g %10.3g %10.3g\n", "",
+    std::printf("%-16s %-18s %9.3f %8.4f %8.4f %8zu %8zu %12llu %10.3g %10.3g %10.3g\n", "",
                 row.method.name.c_str(), row.timing.wall, row.timing.relativeCpu.time,
-                row.timing.relativeCpu.error, row.timing.rounds,
+                row.timing.relativeCpu.error, row.timing.oneCoreRounds, row.timing.rounds,
                 static_cast<unsigned long long>(row.counts.invocations), figure(row.truth),
                 figure(row.single), figure(row.converged));
   }
@@ -218,11 +219,12 @@ class Group {
       cores_ = studies_.back()->cores();
     } while (cores_ > 0 && first + studies_.size() < cases.size() && hasRoom(need));
   }
-  // Two of three turns are on one core: times relative to each other then do not depend on how
-  // near the cores are to each other, which changes them by up to 9 %.
+  // Of three turns the first is on all cores, for times in ms, the others on one: times relative to
+  // each other then do not depend on how near cores are to each other, which changes them by up to
+  // 9 %.
   void takeTurn() {
     constexpr size_t PERIOD = 3;
-    const bool onOneCore = cores_ > 1 && ++turns_ % PERIOD != 0;
+    const bool onOneCore = cores_ > 1 && turns_++ % PERIOD != 0;
     const auto together = onOneCore ? std::make_unique<OnOneCore>() : nullptr;
     for (const std::unique_ptr<FrontStudy>& study : studies_) {
       study->takeBlock(onOneCore);
@@ -244,7 +246,7 @@ class Group {
 };
 
 void measure(const Options& options) {
-  // As many as tell a standard error of what is timed on one core, and one on all cores.
+  // One on all cores, and as many on one as tell a standard error.
   constexpr size_t LEAST_TURNS = 3;
   const std::vector<Case> cases = chosenCases(options);
   const StudyOptions study{options.quick, options.levelsOnly, options.references};
@@ -258,14 +260,14 @@ void measure(const Options& options) {
     const double start_s = schedule.spent_s();
     const double timing_s = schedule.timing_s(first, last);
     std::fprintf(stderr, "%5.0f s %zu cases in turn\n", start_s, group.size());
-    double turn_s = 0.0;
+    double turn_s = 0.0;  // the longest
     const auto hasTime = [&] { return schedule.spent_s() - start_s + 0.5 * turn_s < timing_s; };
     const size_t least = options.turns != 0 ? options.turns : LEAST_TURNS;
     size_t turns = 0;
     do {
       const double before_s = schedule.spent_s();
       group.takeTurn();
-      turn_s = schedule.spent_s() - before_s;
+      turn_s = std::max(turn_s, schedule.spent_s() - before_s);
       ++turns;
     } while (turns < least || (options.turns == 0 && hasTime()));
     for (size_t i = 0; i < group.size(); ++i) {

@@ -8,8 +8,6 @@
 #include <numeric>
 #include <tuple>
 
-#include "bench/driver_threads.hpp"
-
 namespace bench {
 namespace {
 
@@ -245,7 +243,7 @@ Ordered FrontStudy::device() const {
 }
 
 size_t FrontStudy::cores() const {
-  return pinDriverThreads();
+  return parts_->sampler->driverCores();
 }
 
 bool isQuiet(const Row& row) {

@@ -183,6 +183,10 @@ std::vector<RelativeTime> relate(const std::vector<FrameTime>& samples, size_t m
   return relativeTimes(timed, methods);
 }
 
+CoreState nobodyLooks(double /*patience_ms*/) {
+  return {};
+}
+
 }  // namespace
 
 // How one method is timed.
@@ -251,11 +255,11 @@ Sampler::Sampler(std::vector<Copies> methods, size_t anchor, size_t warmUps, Pro
     : methods_(std::move(methods)),
       anchor_(anchor),
       probe_(std::move(probe)),
+      driverCores_(pinDriverThreads()),
       random_(ORDERS_SEED) {
   taken_.fill(std::vector<size_t>(methods_.size()));
-  const bool onCores = pinDriverThreads() > 1;
   if (!probe_) {
-    probe_ = onCores ? awaitQuietCores : [](double) { return CoreState{}; };
+    probe_ = driverCores_ > 1 ? awaitQuietCores : nobodyLooks;
   }
   for (const Copies& copies : methods_) {
     turns_.emplace_back(copies, warmUps);
@@ -294,7 +298,8 @@ void Sampler::takeRound(Cores& cores) {
 void Sampler::takeBlock(bool onOneCore) {
   onOneCore_ = onOneCore;
   const double start = wallClock_ms();
-  Cores cores(probe_, PATIENCE * spent_ms_ - waited_ms_);
+  const ProbeCores none = nobodyLooks;
+  Cores cores(onOneCore ? none : probe_, PATIENCE * spent_ms_ - waited_ms_);
   for (size_t i = 0; i < MAX_STRIDE; ++i) {
     takeRound(cores);
   }

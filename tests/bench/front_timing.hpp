@@ -36,15 +36,15 @@ struct Timing {
   RelativeTime relative;
   RelativeTime relativeCpu;
   size_t oneCoreRounds = 0;
-  /// Median over all rounds of time / anchor's time in that round; low and high: order statistics
-  /// that hold the median with 95 % confidence (all rounds if there are fewer than six).
+  /// Median over all rounds on all cores of time / anchor's time in that round; low and high: order
+  /// statistics that hold the median with 95 % confidence (all rounds if there are fewer than six).
   double medianRatio = 1.0;
   double medianRatioLow = 1.0;
   double medianRatioHigh = 1.0;
   /// The same of CPU times.
   double medianCpuRatio = 1.0;
-  /// In all, and those with quiet cores before and after: all where nobody looked, as with one core
-  /// or a driver on none.
+  /// In all on all cores, and those with quiet cores before and after: all where nobody looked, as
+  /// with one core or a driver on none.
   size_t rounds = 0;
   size_t quietRounds = 0;
   /// Median around the rounds that count; 0: nobody looked.
@@ -71,7 +71,7 @@ struct FrameTime {
   double wall = 0.0;
   double cpu = 0.0;
   double gpu = 0.0;
-  /// The worse before and after.
+  /// The worse before and after; zeros: nobody looked.
   CoreState cores;
 };
 
@@ -88,11 +88,14 @@ class Sampler {
   Sampler& operator=(const Sampler&) = delete;
 
   /// Rounds in which every method is timed, one right after another: a block of its own. Waits for
-  /// a tenth of its time. `onOneCore`: as the caller has placed the threads.
+  /// a tenth of the time of all blocks. `onOneCore`: as the caller has placed the threads; nothing
+  /// is waited for then.
   void takeBlock(bool onOneCore = false);
   /// So many rounds at least, all one block; cheap sets of methods get more, and methods whose
   /// fastest quiet rounds differ. Waits 2.5 s at the most.
   void takeRounds(size_t rounds);
+  /// On how many cores the driver's threads are; 0: it has none in this process.
+  [[nodiscard]] size_t driverCores() const { return driverCores_; }
   /// In the order taken.
   [[nodiscard]] const std::vector<FrameTime>& samples() const { return samples_; }
 
@@ -106,6 +109,7 @@ class Sampler {
   std::vector<Copies> methods_;
   size_t anchor_;
   ProbeCores probe_;
+  size_t driverCores_;
   std::vector<Turn> turns_;
   std::mt19937 random_;
   std::array<std::vector<size_t>, 2> taken_;  // on all cores, on one; by method

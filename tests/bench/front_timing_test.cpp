@@ -104,6 +104,23 @@ TEST(FrontTiming, BlocksWaitForATenthOfTheirTime) {
   EXPECT_LT(waited_ms, 2.0 * 0.1 * spent_ms);
 }
 
+// Threads that share one core do not depend on how near others are.
+TEST(FrontTiming, BlocksOnOneCoreDoNotWait) {
+  const CoreState loud = {2.0 * currentCores().handover_ns, 2.0 * bestCores().work_ns};
+  size_t looks = 0;
+  const auto probe = [&](double) {
+    ++looks;
+    return loud;
+  };
+  Sampler sampler({{[] { return spin(10.0); }}}, 0, 1, probe);
+  sampler.takeBlock(false);
+  const size_t before = looks;
+  EXPECT_GT(before, 0u);
+  sampler.takeBlock(true);
+  EXPECT_EQ(looks, before);
+  EXPECT_EQ(sampler.samples().back().cores.work_ns, 0.0);
+}
+
 // The machine is faster in every block, and a block ends with what the next does not begin with.
 TEST(FrontTiming, BlocksTellOfTheirOwnMachine) {
   std::vector<FrameTime> samples;
@@ -131,15 +148,19 @@ TEST(FrontTiming, RelativeTimesAreThoseOnOneCore) {
       sample.method = method;
       sample.round = sample.block = round;
       sample.onOneCore = round % 3 != 2;
-      sample.cpu = method == 0 ? 10.0 : 40.0;
-      sample.wall = sample.onOneCore ? sample.cpu : 0.5 * sample.cpu + 3.0;
+      const double work = method == 0 ? 10.0 : 40.0;
+      sample.cpu = sample.onOneCore ? work : work + 3.0;
+      sample.wall = sample.onOneCore ? work : 0.5 * work + 3.0;
       samples.push_back(sample);
     }
   }
   const std::vector<Timing> timings = timingsOf(samples, 2, 0);
   EXPECT_NEAR(timings[0].relative.time, 0.5, 1e-6);
   EXPECT_NEAR(timings[1].relative.time, 2.0, 2e-6);
+  EXPECT_NEAR(timings[0].relativeCpu.time, 0.5, 1e-6);
+  EXPECT_NEAR(timings[1].relativeCpu.time, 2.0, 2e-6);
   EXPECT_EQ(timings[0].wall, 8.0);
+  EXPECT_EQ(timings[0].cpu, 13.0);
   EXPECT_NEAR(timings[1].medianRatio, 23.0 / 8.0, 1e-12);
   EXPECT_EQ(timings[1].rounds, 3u);
   EXPECT_EQ(timings[1].oneCoreRounds, 6u);
