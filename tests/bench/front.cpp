@@ -28,7 +28,7 @@ struct Options {
   std::string commit;
   std::vector<std::string> pack;
   size_t turns = 0;
-  double until_s = 470.0;
+  double until_s = 490.0;
   uint32_t timedWidth = 0;
   bool quick = false;
   bool levelsOnly = false;
@@ -315,10 +315,10 @@ void declare(CLI::App& app, Options& options) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option(
       "--turns", options.turns,
-      "Turns of all cases, of two rounds, long frames in one (default: as many as there is "
+      "Turns of all cases, of four rounds, long frames in one or two (default: as many as there is "
       "time for)");
   app.add_option("--until", options.until_s,
-                 "Quick runs: share about so many seconds (default 470)");
+                 "Quick runs: share about so many seconds (default 490)");
   app.add_option("--timed-width", options.timedWidth,
                  "Least width of the pictures that are timed: GPUs draw a case's own in no time")
       ->check(CLI::Range(1, 8192));

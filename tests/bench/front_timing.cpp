@@ -33,6 +33,10 @@ constexpr double LONG_FIRST_ms = 1000.0;
 // many times MIN_ROUND_ms on a method is timed in every second round. Shorter ones save too little.
 constexpr double LONG_ROUND = 25.0;
 constexpr size_t MAX_STRIDE = 2;
+// Rounds of a block, and what a method may take of each, ms: longer frames are timed in every
+// second one, those above twice as much in one of four. Short frames scatter most, and cost least.
+constexpr size_t BLOCK_ROUNDS = 4;
+constexpr double SHORT_ms = 25.0;
 // Every order has each method beside others, so that what the machine adds can be told.
 constexpr uint32_t ORDERS_SEED = 1;
 // A method whose fastest quiet rounds, CONFIRMED of them, differ by more than this (last / first)
@@ -196,6 +200,7 @@ struct Sampler::Turn {
   size_t copies = 1;
   /// Rounds from one timing to the next.
   size_t stride = 1;
+  size_t blockStride = 1;
 
   Turn(const Copies& frames, size_t warmUps) : copies(frames.size()) {
     for (size_t copy = 0; copy < frames.size(); ++copy) {
@@ -216,6 +221,9 @@ struct Sampler::Turn {
     repeats = std::clamp<size_t>(static_cast<size_t>(wanted), 1, MAX_REPEATS);
     const double longer = frame_ms / (LONG_ROUND * MIN_ROUND_ms);
     stride = std::clamp<size_t>(1 + static_cast<size_t>(longer), 1, MAX_STRIDE);
+    while (blockStride < BLOCK_ROUNDS && frame_ms > SHORT_ms * static_cast<double>(blockStride)) {
+      blockStride *= 2;
+    }
   }
   [[nodiscard]] double round_ms() const {
     return frame_ms * static_cast<double>(repeats) / static_cast<double>(stride);
@@ -264,7 +272,7 @@ Sampler::Sampler(std::vector<Copies> methods, size_t anchor, size_t warmUps, Pro
   for (const Copies& copies : methods_) {
     turns_.emplace_back(copies, warmUps);
   }
-  turns_[anchor_].stride = 1;
+  turns_[anchor_].stride = turns_[anchor_].blockStride = 1;
 }
 
 Sampler::~Sampler() = default;
@@ -285,10 +293,10 @@ void Sampler::take(Cores& cores, std::vector<size_t> due) {
   ++round_;
 }
 
-void Sampler::takeRound(Cores& cores) {
+void Sampler::takeRound(Cores& cores, size_t Turn::*stride) {
   std::vector<size_t> due;
   for (size_t i = 0; i < methods_.size(); ++i) {
-    if ((i + round_) % turns_[i].stride == 0) {
+    if ((i + round_) % (turns_[i].*stride) == 0) {
       due.push_back(i);
     }
   }
@@ -300,8 +308,8 @@ void Sampler::takeBlock(bool onOneCore) {
   const double start = wallClock_ms();
   const ProbeCores none = nobodyLooks;
   Cores cores(onOneCore ? none : probe_, PATIENCE * spent_ms_ - waited_ms_);
-  for (size_t i = 0; i < MAX_STRIDE; ++i) {
-    takeRound(cores);
+  for (size_t i = 0; i < BLOCK_ROUNDS; ++i) {
+    takeRound(cores, &Turn::blockStride);
   }
   ++block_;
   spent_ms_ += wallClock_ms() - start;
@@ -326,7 +334,7 @@ void Sampler::takeRounds(size_t rounds) {
   };
   for (size_t done = 0; done < most; ++done) {
     const size_t before = samples_.size();
-    takeRound(cores);
+    takeRound(cores, &Turn::stride);
     note(before);
   }
   for (size_t done = 0; done < UNSURE_ROUNDS * rounds && loud < LOUD_ROUNDS; ++done) {

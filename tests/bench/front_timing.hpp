@@ -103,7 +103,7 @@ class Sampler {
   struct Turn;
   class Cores;
 
-  void takeRound(Cores& cores);
+  void takeRound(Cores& cores, size_t Turn::*stride);
   void take(Cores& cores, std::vector<size_t> due);
 
   std::vector<Copies> methods_;

@@ -53,31 +53,34 @@ TEST(FrontTiming, RelativeTimesAreOverThoseOfAllMethods) {
   EXPECT_NEAR(timings[0].relativeCpu.time * timings[1].relativeCpu.time, 1.0, 1e-9);
 }
 
-// A method whose frames take longer than 250 ms is timed in one of a block's two rounds.
+// A method whose frames take longer than 25 ms is timed in two of a block's four rounds, longer
+// than 50 ms in one; the anchor in all.
 TEST(FrontTiming, BlocksHoldEveryMethod) {
   size_t second = 0;
   const Copies shortOne = {[] { return spin(10.0); }};
-  const Copies longOne = {[] { return spin(260.0); },
+  const Copies middle = {[] { return spin(30.0); }};
+  const Copies longOne = {[] { return spin(60.0); },
                           [&second] {
                             ++second;
-                            return spin(260.0);
+                            return spin(60.0);
                           }};
-  Sampler sampler({shortOne, longOne}, 0, 1);
+  Sampler sampler({shortOne, longOne, middle}, 0, 1);
   const size_t warmedUp = second;
   constexpr size_t BLOCKS = 4;
   for (size_t i = 0; i < BLOCKS; ++i) {
     sampler.takeBlock();
   }
   const std::vector<FrameTime>& samples = sampler.samples();
-  ASSERT_EQ(samples.size(), 3 * BLOCKS);
+  ASSERT_EQ(samples.size(), 7 * BLOCKS);
   for (size_t i = 0; i < samples.size(); ++i) {
-    EXPECT_EQ(samples[i].block, i / 3);
-    EXPECT_EQ(samples[i].round / 2, samples[i].block);
+    EXPECT_EQ(samples[i].block, i / 7);
+    EXPECT_EQ(samples[i].round / 4, samples[i].block);
   }
   EXPECT_EQ(second, warmedUp + BLOCKS / 2);  // copies go on in turn
-  const std::vector<Timing> timings = timingsOf(samples, 2, 0);
-  EXPECT_EQ(timings[0].rounds, 2 * BLOCKS);
+  const std::vector<Timing> timings = timingsOf(samples, 3, 0);
+  EXPECT_EQ(timings[0].rounds, 4 * BLOCKS);
   EXPECT_EQ(timings[1].rounds, BLOCKS);
+  EXPECT_EQ(timings[2].rounds, 2 * BLOCKS);
 }
 
 // Blocks wait for quiet cores for a tenth of what they take, and so in the long run: here every
@@ -166,7 +169,7 @@ TEST(FrontTiming, RelativeTimesAreThoseOnOneCore) {
   EXPECT_EQ(timings[1].oneCoreRounds, 6u);
 }
 
-// Three copies, blocks of two rounds, every second one on one core.
+// Three copies, blocks of four rounds, every second one on one core.
 TEST(FrontTiming, CopiesAreTimedOnOneCoreAsOftenAsOnAll) {
   std::array<size_t, 2> calls{};
   Sampler sampler({{[&] {
@@ -183,10 +186,10 @@ TEST(FrontTiming, CopiesAreTimedOnOneCoreAsOftenAsOnAll) {
   for (const bool onOneCore : {false, true, false, true}) {
     sampler.takeBlock(onOneCore);
   }
-  EXPECT_EQ(calls[0], 4u);  // rounds 0 and 3 of each
-  EXPECT_EQ(calls[1], 2u);
-  EXPECT_EQ(sampler.samples()[1].onOneCore, false);
-  EXPECT_EQ(sampler.samples()[2].onOneCore, true);
+  EXPECT_EQ(calls[0], 6u);  // rounds 0, 3 and 6 of each
+  EXPECT_EQ(calls[1], 6u);
+  EXPECT_EQ(sampler.samples()[3].onOneCore, false);
+  EXPECT_EQ(sampler.samples()[4].onOneCore, true);
 }
 
 // Two of three frames run beside others' work, and faster than it ever does in quiet rounds, so
