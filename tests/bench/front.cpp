@@ -221,7 +221,7 @@ class Group {
   }
   // Of three turns the first is on all cores, for times in ms, the others on one: times relative to
   // each other then do not depend on how near cores are to each other, which changes them by up to
-  // 7 %.
+  // 6 %.
   void takeTurn() {
     constexpr size_t PERIOD = 3;
     const bool onOneCore = cores_ > 1 && turns_++ % PERIOD != 0;

@@ -29,9 +29,9 @@ constexpr size_t MORE_ROUNDS = 7;
 constexpr double LONG_WARM_UP_ms = 60.0;
 // A method whose first frame takes longer than this (light of all orders) is not copied.
 constexpr double LONG_FIRST_ms = 1000.0;
-// Times of long frames scatter some 0.7 times as much, so that half as many tell as much: from so
-// many times MIN_ROUND_ms on a method is timed in every second round. Shorter ones save too little.
-constexpr double LONG_ROUND = 25.0;
+// In takeRounds. Long frames differ less: from so many times MIN_ROUND_ms on a method is timed in
+// every second round.
+constexpr double LONG_ROUND = 10.0;
 constexpr size_t MAX_STRIDE = 2;
 // Rounds of a block, and what a method may take of each, ms: longer frames are timed in every
 // second one, those above twice as much in one of four. Short frames scatter most, and cost least.
@@ -198,7 +198,7 @@ struct Sampler::Turn {
   double frame_ms = std::numeric_limits<double>::infinity();
   size_t repeats = 1;
   size_t copies = 1;
-  /// Rounds from one timing to the next.
+  /// Rounds from one timing to the next, in takeRounds and in blocks.
   size_t stride = 1;
   size_t blockStride = 1;
 

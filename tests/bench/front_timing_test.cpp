@@ -64,7 +64,7 @@ TEST(FrontTiming, BlocksHoldEveryMethod) {
                             ++second;
                             return spin(60.0);
                           }};
-  Sampler sampler({shortOne, longOne, middle}, 0, 1);
+  Sampler sampler({shortOne, longOne, middle}, 0, 3);
   const size_t warmedUp = second;
   constexpr size_t BLOCKS = 4;
   for (size_t i = 0; i < BLOCKS; ++i) {
