@@ -196,15 +196,22 @@ class Schedule {
   Mean sky_{2.5, 5.0};
 };
 
+// Bytes that a case takes, the most until now.
+struct Needs {
+  uint64_t volumes = uint64_t{2} << 30;
+  uint64_t sky = 0;
+
+  uint64_t& of(const Case& one) { return hasVolumes(one) ? volumes : sky; }
+};
+
 // Cases whose contexts are there together and whose frames are timed in turn, so that one minute's
 // loud machine is not one case's.
 class Group {
  public:
   // From case `first` on, as many as leave a quarter of the memory; one with drivers whose memory
   // is another.
-  // `need`: bytes that a case takes, the most until now.
   Group(const std::vector<Case>& cases, size_t first, const StudyOptions& study, Schedule& schedule,
-        uint64_t& need) {
+        Needs& needs) {
     do {
       const size_t index = first + studies_.size();
       const auto tell = [&](const std::string& step) {
@@ -215,15 +222,17 @@ class Group {
       const double start_s = schedule.spent_s();
       studies_.push_back(std::make_unique<FrontStudy>(cases[index], study, tell));
       schedule.note(index, schedule.spent_s() - start_s);
+      uint64_t& need = needs.of(cases[index]);
       need = std::max(need, before - std::min(before, memoryNow().available));
       cores_ = studies_.back()->cores();
-    } while (cores_ > 0 && first + studies_.size() < cases.size() && hasRoom(need));
+    } while (cores_ > 0 && first + studies_.size() < cases.size() &&
+             hasRoom(needs.of(cases[first + studies_.size()])));
   }
-  // Of three turns the first is on all cores, for times in ms, the others on one: times relative to
+  // Of four turns the first is on all cores, for times in ms, the others on one: times relative to
   // each other then do not depend on how near cores are to each other, which changes them by up to
   // 6 %.
   void takeTurn() {
-    constexpr size_t PERIOD = 3;
+    constexpr size_t PERIOD = 4;
     const bool onOneCore = cores_ > 1 && turns_++ % PERIOD != 0;
     const auto together = onOneCore ? std::make_unique<OnOneCore>() : nullptr;
     for (const std::unique_ptr<FrontStudy>& study : studies_) {
@@ -253,9 +262,9 @@ void measure(const Options& options) {
   Schedule schedule(cases, study, options.until_s);
   Ordered report = reportHead(options.commit, options.quick);
   std::vector<std::vector<Row>> rows;  // of cases
-  uint64_t need = uint64_t{2} << 30;   // skies, which take less than volumes, come first
+  Needs needs;
   for (size_t first = 0; first < cases.size();) {
-    Group group(cases, first, study, schedule, need);
+    Group group(cases, first, study, schedule, needs);
     const size_t last = first + group.size();
     const double start_s = schedule.spent_s();
     const double timing_s = schedule.timing_s(first, last);

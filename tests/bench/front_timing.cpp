@@ -17,8 +17,9 @@
 namespace bench {
 namespace {
 
-// A frame is repeated until a round spends this long on it: timers and schedulers then matter
-// some per cent. Many short rounds follow a machine whose speed drifts better than few long ones.
+// On all cores a frame is repeated until a round spends this long on it: timers and schedulers then
+// matter some per cent. Many short rounds follow a machine whose speed drifts better than few long
+// ones.
 constexpr double MIN_ROUND_ms = 10.0;
 constexpr size_t MAX_REPEATS = 64;
 // Cheap sets of methods get more rounds in takeRounds, up to MORE_ROUNDS times as many.
@@ -33,10 +34,11 @@ constexpr double LONG_FIRST_ms = 1000.0;
 // every second round.
 constexpr double LONG_ROUND = 10.0;
 constexpr size_t MAX_STRIDE = 2;
-// Rounds of a block, and what a method may take of each, ms: longer frames are timed in every
-// second one, those above twice as much in one of four. Short frames scatter most, and cost least.
+// Rounds of a block, and what a method may take of each on one core, ms: longer frames are timed in
+// every second one, the longest in one of four. Short frames scatter most, and cost least.
 constexpr size_t BLOCK_ROUNDS = 4;
-constexpr double SHORT_ms = 25.0;
+constexpr double SHORT_ms = 50.0;
+constexpr double LONG_ms = 320.0;
 // Every order has each method beside others, so that what the machine adds can be told.
 constexpr uint32_t ORDERS_SEED = 1;
 // A method whose fastest quiet rounds, CONFIRMED of them, differ by more than this (last / first)
@@ -196,6 +198,8 @@ CoreState nobodyLooks(double /*patience_ms*/) {
 // How one method is timed.
 struct Sampler::Turn {
   double frame_ms = std::numeric_limits<double>::infinity();
+  /// Of all threads, but no less than a frame takes: on one core it takes that long.
+  double work_ms = std::numeric_limits<double>::infinity();
   size_t repeats = 1;
   size_t copies = 1;
   /// Rounds from one timing to the next, in takeRounds and in blocks.
@@ -206,8 +210,10 @@ struct Sampler::Turn {
     for (size_t copy = 0; copy < frames.size(); ++copy) {
       double spent = 0.0;
       for (size_t k = 0; k < warmUps && spent < LONG_WARM_UP_ms; ++k) {
-        const double wall = timeFrames(frames[copy], 1).wall;
+        const FrameTime frame = timeFrames(frames[copy], 1);
+        const double wall = frame.wall;
         frame_ms = std::min(frame_ms, wall);
+        work_ms = std::min(work_ms, std::max(wall, frame.cpu));
         spent += copy == 0 && k == 0 ? 0.0 : wall;
         if (wall > LONG_FIRST_ms) {
           copies = 1;
@@ -221,9 +227,7 @@ struct Sampler::Turn {
     repeats = std::clamp<size_t>(static_cast<size_t>(wanted), 1, MAX_REPEATS);
     const double longer = frame_ms / (LONG_ROUND * MIN_ROUND_ms);
     stride = std::clamp<size_t>(1 + static_cast<size_t>(longer), 1, MAX_STRIDE);
-    while (blockStride < BLOCK_ROUNDS && frame_ms > SHORT_ms * static_cast<double>(blockStride)) {
-      blockStride *= 2;
-    }
+    blockStride = work_ms <= SHORT_ms ? 1 : work_ms <= LONG_ms ? 2 : BLOCK_ROUNDS;
   }
   [[nodiscard]] double round_ms() const {
     return frame_ms * static_cast<double>(repeats) / static_cast<double>(stride);
@@ -272,7 +276,7 @@ Sampler::Sampler(std::vector<Copies> methods, size_t anchor, size_t warmUps, Pro
   for (const Copies& copies : methods_) {
     turns_.emplace_back(copies, warmUps);
   }
-  turns_[anchor_].stride = turns_[anchor_].blockStride = 1;
+  turns_[anchor_].stride = 1;
 }
 
 Sampler::~Sampler() = default;
@@ -282,7 +286,9 @@ void Sampler::take(Cores& cores, std::vector<size_t> due) {
   for (const size_t i : due) {
     waited_ms_ += cores.await();
     const RenderFrame& frame = methods_[i][taken_.at(onOneCore_)[i]++ % turns_[i].copies];
-    FrameTime sample = timeFrames(frame, turns_[i].repeats);
+    // On one core once: the first of some takes longer, what others left in the caches, and how
+    // many there are hangs on how fast the warm-ups were.
+    FrameTime sample = timeFrames(frame, onOneCore_ ? 1 : turns_[i].repeats);
     sample.method = i;
     sample.round = round_;
     sample.block = block_;
@@ -296,7 +302,9 @@ void Sampler::take(Cores& cores, std::vector<size_t> due) {
 void Sampler::takeRound(Cores& cores, size_t Turn::*stride) {
   std::vector<size_t> due;
   for (size_t i = 0; i < methods_.size(); ++i) {
-    if ((i + round_) % (turns_[i].*stride) == 0) {
+    // In other rounds of each block; ratios to the anchor are of rounds on all cores.
+    const bool isDue = (i + round_ + block_) % (turns_[i].*stride) == 0;
+    if (isDue || (i == anchor_ && !onOneCore_)) {
       due.push_back(i);
     }
   }

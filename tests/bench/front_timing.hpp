@@ -76,8 +76,8 @@ struct FrameTime {
 };
 
 /// Times several methods in turn: every method once per round, in another order each round, each
-/// when cores are quiet, or when it has waited too long for that. A frame too short to time alone
-/// is repeated and its mean taken, long frames miss some rounds.
+/// when cores are quiet, or when it has waited too long for that. On all cores a frame too short to
+/// time alone is repeated and its mean taken. Long frames miss some rounds.
 class Sampler {
  public:
   /// Gives the driver's threads a core each, then calls every copy as often as its warm-ups ask.
