@@ -3,6 +3,7 @@
 // contract of the quality levels.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -196,12 +197,21 @@ class Schedule {
   Mean sky_{2.5, 5.0};
 };
 
-// Bytes that a case takes, the most until now.
-struct Needs {
-  uint64_t volumes = uint64_t{2} << 30;
-  uint64_t sky = 0;
+// Bytes that a case takes: the most until now, a guess before the first.
+class Needs {
+ public:
+  void note(const Case& one, uint64_t bytes) {
+    uint64_t& most = most_.at(hasVolumes(one));
+    most = std::max(most, bytes);
+  }
+  [[nodiscard]] uint64_t of(const Case& one) const {
+    constexpr std::array<uint64_t, 2> GUESS = {uint64_t{1} << 28, uint64_t{2} << 30};
+    const uint64_t most = most_.at(hasVolumes(one));
+    return most != 0 ? most : GUESS.at(hasVolumes(one));
+  }
 
-  uint64_t& of(const Case& one) { return hasVolumes(one) ? volumes : sky; }
+ private:
+  std::array<uint64_t, 2> most_{};
 };
 
 // Cases whose contexts are there together and whose frames are timed in turn, so that one minute's
@@ -222,8 +232,7 @@ class Group {
       const double start_s = schedule.spent_s();
       studies_.push_back(std::make_unique<FrontStudy>(cases[index], study, tell));
       schedule.note(index, schedule.spent_s() - start_s);
-      uint64_t& need = needs.of(cases[index]);
-      need = std::max(need, before - std::min(before, memoryNow().available));
+      needs.note(cases[index], before - std::min(before, memoryNow().available));
       cores_ = studies_.back()->cores();
     } while (cores_ > 0 && first + studies_.size() < cases.size() &&
              hasRoom(needs.of(cases[first + studies_.size()])));
@@ -270,7 +279,9 @@ void measure(const Options& options) {
     const double timing_s = schedule.timing_s(first, last);
     std::fprintf(stderr, "%5.0f s %zu cases in turn\n", start_s, group.size());
     double turn_s = 0.0;  // the longest
-    const auto hasTime = [&] { return schedule.spent_s() - start_s + 0.5 * turn_s < timing_s; };
+    // The last may end later by half of one; others leave the next its time.
+    const double part = last == cases.size() ? 0.5 : 1.0;
+    const auto hasTime = [&] { return schedule.spent_s() - start_s + part * turn_s < timing_s; };
     const size_t least = options.turns != 0 ? options.turns : LEAST_TURNS;
     size_t turns = 0;
     do {

@@ -18,10 +18,13 @@ constexpr uint32_t TIMED_WIDTH_VOLUMES = 256;
 // Frames before the measured ones: the first compiles, and every slot of the frames in flight
 // (3) is recorded once.
 constexpr size_t WARM_UPS = 3;
-// Views of each method that are timed in turn: where it lies changes the time of some short frames
-// by 3 %, of long ones hardly.
-size_t copiesOf(const Settings& settings) {
-  return settings.level == WLK_QUALITY_ULTRA ? 3 : 6;
+// Views of a method that are timed in turn. Where it lies changes the time of some short frames by
+// 3 %, of long ones, which keep much, hardly.
+size_t copiesOf(const Case& one, const Settings& settings) {
+  const Settings high = levelSettings(WLK_QUALITY_HIGH);
+  const bool isShort = settings.batchSize == 0 && settings.sliceCount <= high.sliceCount &&
+                       settings.lightBufferSize <= high.lightBufferSize;
+  return isShort || !hasVolumes(one) ? 6 : 3;
 }
 
 // A context keeps 512 MiB of light for its views, and draws in batches, several times slower, what
@@ -207,7 +210,7 @@ FrontStudy::FrontStudy(const Case& one, const StudyOptions& options, const Tell&
     parts_->anchor = method.name == ANCHOR ? i : parts_->anchor;
     World& world = parts_->worlds.of(method.settings);
     Copies& copies = frames.emplace_back();
-    for (size_t copy = 0; copy < copiesOf(method.settings); ++copy) {
+    for (size_t copy = 0; copy < copiesOf(one, method.settings); ++copy) {
       const WlkView view = world.addView(qualityOf(method), scale);
       copies.emplace_back([&world, &opaque = parts_->opaque, view] {
         world.render(view, opaque);

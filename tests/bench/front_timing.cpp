@@ -34,10 +34,10 @@ constexpr double LONG_FIRST_ms = 1000.0;
 // every second round.
 constexpr double LONG_ROUND = 10.0;
 constexpr size_t MAX_STRIDE = 2;
-// Rounds of a block, and what a method may take of each on one core, ms: longer frames are timed in
-// every second one, the longest in one of four. Short frames scatter most, and cost least.
+// Rounds of a block, and what a method may take of each, ms: longer frames are timed in every
+// second one, the longest in one of four. Short frames scatter most, and cost least.
 constexpr size_t BLOCK_ROUNDS = 4;
-constexpr double SHORT_ms = 50.0;
+constexpr double SHORT_ms = 60.0;
 constexpr double LONG_ms = 320.0;
 // Every order has each method beside others, so that what the machine adds can be told.
 constexpr uint32_t ORDERS_SEED = 1;
@@ -202,9 +202,9 @@ struct Sampler::Turn {
   double work_ms = std::numeric_limits<double>::infinity();
   size_t repeats = 1;
   size_t copies = 1;
-  /// Rounds from one timing to the next, in takeRounds and in blocks.
+  /// Rounds from one timing to the next, in takeRounds and in blocks: on all cores, on one.
   size_t stride = 1;
-  size_t blockStride = 1;
+  std::array<size_t, 2> blockStrides{};
 
   Turn(const Copies& frames, size_t warmUps) : copies(frames.size()) {
     for (size_t copy = 0; copy < frames.size(); ++copy) {
@@ -215,7 +215,7 @@ struct Sampler::Turn {
         frame_ms = std::min(frame_ms, wall);
         work_ms = std::min(work_ms, std::max(wall, frame.cpu));
         spent += copy == 0 && k == 0 ? 0.0 : wall;
-        if (wall > LONG_FIRST_ms) {
+        if (copy == 0 && k == 0 && wall > LONG_FIRST_ms) {
           copies = 1;
         }
       }
@@ -227,10 +227,18 @@ struct Sampler::Turn {
     repeats = std::clamp<size_t>(static_cast<size_t>(wanted), 1, MAX_REPEATS);
     const double longer = frame_ms / (LONG_ROUND * MIN_ROUND_ms);
     stride = std::clamp<size_t>(1 + static_cast<size_t>(longer), 1, MAX_STRIDE);
-    blockStride = work_ms <= SHORT_ms ? 1 : work_ms <= LONG_ms ? 2 : BLOCK_ROUNDS;
+    blockStrides = {blockStrideOf(frame_ms), blockStrideOf(work_ms)};
   }
   [[nodiscard]] double round_ms() const {
     return frame_ms * static_cast<double>(repeats) / static_cast<double>(stride);
+  }
+
+ private:
+  static size_t blockStrideOf(double time_ms) {
+    if (time_ms <= SHORT_ms) {
+      return 1;
+    }
+    return time_ms <= LONG_ms ? 2 : BLOCK_ROUNDS;
   }
 };
 
@@ -276,7 +284,6 @@ Sampler::Sampler(std::vector<Copies> methods, size_t anchor, size_t warmUps, Pro
   for (const Copies& copies : methods_) {
     turns_.emplace_back(copies, warmUps);
   }
-  turns_[anchor_].stride = 1;
 }
 
 Sampler::~Sampler() = default;
@@ -288,7 +295,8 @@ void Sampler::take(Cores& cores, std::vector<size_t> due) {
     const RenderFrame& frame = methods_[i][taken_.at(onOneCore_)[i]++ % turns_[i].copies];
     // On one core once: the first of some takes longer, what others left in the caches, and how
     // many there are hangs on how fast the warm-ups were.
-    FrameTime sample = timeFrames(frame, onOneCore_ ? 1 : turns_[i].repeats);
+    const bool once = onOneCore_ || driverCores_ == 1;
+    FrameTime sample = timeFrames(frame, once ? 1 : turns_[i].repeats);
     sample.method = i;
     sample.round = round_;
     sample.block = block_;
@@ -299,11 +307,13 @@ void Sampler::take(Cores& cores, std::vector<size_t> due) {
   ++round_;
 }
 
-void Sampler::takeRound(Cores& cores, size_t Turn::*stride) {
+void Sampler::takeRound(Cores& cores, bool ofBlock) {
   std::vector<size_t> due;
   for (size_t i = 0; i < methods_.size(); ++i) {
-    // In other rounds of each block; ratios to the anchor are of rounds on all cores.
-    const bool isDue = (i + round_ + block_) % (turns_[i].*stride) == 0;
+    const Turn& turn = turns_[i];
+    const size_t stride = ofBlock ? turn.blockStrides.at(onOneCore_) : turn.stride;
+    // Of each block's rounds others; ratios to the anchor are of rounds on all cores.
+    const bool isDue = (i + round_ + blocks_.at(onOneCore_)) % stride == 0;
     if (isDue || (i == anchor_ && !onOneCore_)) {
       due.push_back(i);
     }
@@ -317,9 +327,10 @@ void Sampler::takeBlock(bool onOneCore) {
   const ProbeCores none = nobodyLooks;
   Cores cores(onOneCore ? none : probe_, PATIENCE * spent_ms_ - waited_ms_);
   for (size_t i = 0; i < BLOCK_ROUNDS; ++i) {
-    takeRound(cores, &Turn::blockStride);
+    takeRound(cores, true);
   }
   ++block_;
+  ++blocks_.at(onOneCore);
   spent_ms_ += wallClock_ms() - start;
 }
 
@@ -342,7 +353,7 @@ void Sampler::takeRounds(size_t rounds) {
   };
   for (size_t done = 0; done < most; ++done) {
     const size_t before = samples_.size();
-    takeRound(cores, &Turn::stride);
+    takeRound(cores, false);
     note(before);
   }
   for (size_t done = 0; done < UNSURE_ROUNDS * rounds && loud < LOUD_ROUNDS; ++done) {

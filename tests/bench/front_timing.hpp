@@ -103,7 +103,7 @@ class Sampler {
   struct Turn;
   class Cores;
 
-  void takeRound(Cores& cores, size_t Turn::*stride);
+  void takeRound(Cores& cores, bool ofBlock);
   void take(Cores& cores, std::vector<size_t> due);
 
   std::vector<Copies> methods_;
@@ -115,6 +115,7 @@ class Sampler {
   std::array<std::vector<size_t>, 2> taken_;  // on all cores, on one; by method
   size_t round_ = 0;
   size_t block_ = 0;
+  std::array<size_t, 2> blocks_{};  // on all cores, on one
   bool onOneCore_ = false;
   double spent_ms_ = 0.0;
   double waited_ms_ = 0.0;
@@ -122,7 +123,7 @@ class Sampler {
 };
 
 /// Each method has a sample at least that is not of one core, and of those too if there are any,
-/// and in its rounds the anchor has one.
+/// and in its rounds on all cores the anchor has one.
 std::vector<Timing> timingsOf(const std::vector<FrameTime>& samples, size_t methods, size_t anchor);
 
 /// Times of `rounds` rounds, Sampler::takeRounds.
