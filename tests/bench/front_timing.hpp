@@ -54,8 +54,8 @@ struct Timing {
 /// Renders one frame and returns its GPU time in ms.
 using RenderFrame = std::function<double()>;
 
-/// One method: copies of its frame whose memory lies elsewhere, which alone may change a time by a
-/// tenth. Rounds take them in turn.
+/// One method: copies of its frame whose memory lies elsewhere, which alone may change a time by
+/// some per cent. Rounds take them in turn.
 using Copies = std::vector<RenderFrame>;
 
 /// Waits for quiet cores no longer than so many ms; what they are like then.
