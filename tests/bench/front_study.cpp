@@ -28,8 +28,8 @@ size_t copiesOf(const Case& one, const Settings& settings) {
 }
 
 // A context keeps 512 MiB of light for its views, and draws in batches, several times slower, what
-// finds no room. The levels fit in; what else keeps a quarter of it has a context of its own, so
-// that no method's time depends on which others there are.
+// finds no room. The levels fit in; every other method that keeps a quarter of it has a context of
+// its own, so that no method's time depends on which others there are.
 bool keepsMuch(const Settings& settings) {
   constexpr uint64_t TEXELS = uint64_t{1} << 24;  // of two floats
   const uint64_t side = settings.lightBufferSize;
@@ -45,8 +45,8 @@ class Worlds {
   Worlds(const Case& one, const std::vector<Method>& methods) : case_(one) {
     std::map<Key, std::future<std::unique_ptr<World>>> made;
     for (const Method& method : methods) {
-      const Settings& settings = method.settings;
-      const auto make = [this, &method, &settings] {
+      const auto make = [this, &method] {
+        const Settings& settings = method.settings;
         auto world = std::make_unique<World>(case_, settings.analytic, settings.ambient);
         // Its first view compiles, and makes the tables that all share.
         const WlkView view = world->addView(qualityOf(method));
@@ -54,7 +54,7 @@ class Worlds {
         world->removeView(view);
         return world;
       };
-      std::future<std::unique_ptr<World>>& world = made[keyOf(settings)];
+      std::future<std::unique_ptr<World>>& world = made[keyOf(method)];
       if (!world.valid()) {
         world = std::async(std::launch::async, make);
       }
@@ -62,25 +62,27 @@ class Worlds {
     for (auto& [key, world] : made) {
       worlds_[key] = world.get();
     }
-    opaque_ = of({}).makeOpaque();
+    opaque_ = usual().makeOpaque();
   }
-  World& of(const Settings& settings) {
-    std::unique_ptr<World>& world = worlds_[keyOf(settings)];
+  World& of(const Method& method) {
+    std::unique_ptr<World>& world = worlds_[keyOf(method)];
     if (!world) {
-      world = std::make_unique<World>(case_, settings.analytic, settings.ambient);
+      world = std::make_unique<World>(case_, method.settings.analytic, method.settings.ambient);
     }
     return *world;
   }
+  // Of the levels.
+  World& usual() { return of(levelMethods().front()); }
   // One background for all methods: its light does not depend on them.
   [[nodiscard]] const host::RasterResult& opaque() const { return opaque_; }
 
  private:
-  using Key = std::tuple<bool, bool, uint32_t, uint32_t>;
+  // Closed forms of the phase functions, light of sky and ground, name of a method on its own.
+  using Key = std::tuple<bool, bool, std::string>;
 
-  static Key keyOf(const Settings& settings) {
-    const bool apart = keepsMuch(settings);
-    return {settings.analytic, settings.ambient, apart ? settings.lightBufferSize : 0,
-            apart ? settings.sliceCount : 0};
+  static Key keyOf(const Method& method) {
+    const Settings& settings = method.settings;
+    return {settings.analytic, settings.ambient, keepsMuch(settings) ? method.name : std::string()};
   }
 
   const Case& case_;
@@ -95,10 +97,9 @@ struct Shot {
 
 // The first frame of a view that is there alone, so that the memory counted is its own, and what
 // the second records: a frame of a scene that stays. `stays`: the view, too.
-Shot shoot(Worlds& worlds, const WlkQuality& quality, const Settings& settings,
-           bool stays = false) {
-  World& world = worlds.of(settings);
-  const WlkView view = world.addView(quality);
+Shot shoot(Worlds& worlds, const Method& method, bool stays = false) {
+  World& world = worlds.of(method);
+  const WlkView view = world.addView(qualityOf(method));
   world.prepare();
   world.render(view, worlds.opaque());
   Shot shot{world.read(view), {}};
@@ -130,8 +131,7 @@ class Limits {
     }
     Reference& limit = limits_[{settings.scattering, settings.analytic}];
     if (!limit.picture) {
-      const Settings fine = convergedSettings(settings);
-      limit.picture = shoot(worlds_, explicitQuality(fine), fine).picture;
+      limit.picture = shoot(worlds_, {"converged", false, convergedSettings(settings)}).picture;
     }
     return limit;
   }
@@ -158,7 +158,7 @@ std::vector<Row> measureRows(const Case& one, const StudyOptions& options, World
   for (const size_t i : order) {
     tell("errors of " + methods[i].name);
     const Method& method = methods[i];
-    shots[i] = shoot(worlds, qualityOf(method), method.settings, staysForTiming(method));
+    shots[i] = shoot(worlds, method, staysForTiming(method));
   }
   std::vector<Row> rows;
   for (size_t i = 0; i < methods.size(); ++i) {
@@ -202,13 +202,13 @@ FrontStudy::FrontStudy(const Case& one, const StudyOptions& options, const Tell&
   const uint32_t usual = hasVolumes(one) ? TIMED_WIDTH_VOLUMES : TIMED_WIDTH;
   const uint32_t width = std::max(usual, one.timedWidth);
   const uint32_t scale = (width + one.width - 1) / one.width;
-  parts_->opaque = parts_->worlds.of({}).makeOpaque(scale);
+  parts_->opaque = parts_->worlds.usual().makeOpaque(scale);
   std::vector<Copies> frames;
   for (size_t i = 0; i < parts_->rows.size(); ++i) {
     parts_->rows[i].timedScale = scale;
     const Method& method = parts_->rows[i].method;
     parts_->anchor = method.name == ANCHOR ? i : parts_->anchor;
-    World& world = parts_->worlds.of(method.settings);
+    World& world = parts_->worlds.of(method);
     Copies& copies = frames.emplace_back();
     for (size_t copy = 0; copy < copiesOf(one, method.settings); ++copy) {
       const WlkView view = world.addView(qualityOf(method), scale);
@@ -219,7 +219,7 @@ FrontStudy::FrontStudy(const Case& one, const StudyOptions& options, const Tell&
     }
   }
   for (const Row& row : parts_->rows) {
-    parts_->worlds.of(row.method.settings).prepare();
+    parts_->worlds.of(row.method).prepare();
   }
   parts_->sampler = std::make_unique<Sampler>(std::move(frames), parts_->anchor, WARM_UPS);
 }
@@ -241,7 +241,7 @@ std::vector<Row> FrontStudy::rows() const {
 }
 
 Ordered FrontStudy::device() const {
-  const WlkCapabilities device = parts_->worlds.of({}).capabilities();
+  const WlkCapabilities device = parts_->worlds.usual().capabilities();
   return {{"name", std::string(device.deviceName)},
           {"driver", "Vulkan " + std::to_string(device.vulkanVersion >> 22 & 0x7fu) + "." +
                          std::to_string(device.vulkanVersion >> 12 & 0x3ffu) + "." +
