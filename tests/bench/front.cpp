@@ -206,8 +206,10 @@ class Needs {
   }
   [[nodiscard]] uint64_t of(const Case& one) const {
     constexpr std::array<uint64_t, 2> GUESS = {uint64_t{1} << 28, uint64_t{2} << 30};
+    constexpr uint64_t LEAST = 4;  // part of the guess: others may have freed memory meanwhile
+    const uint64_t guess = GUESS.at(hasVolumes(one));
     const uint64_t most = most_.at(hasVolumes(one));
-    return most != 0 ? most : GUESS.at(hasVolumes(one));
+    return most != 0 ? std::max(most, guess / LEAST) : guess;
   }
 
  private:

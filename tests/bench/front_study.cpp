@@ -28,8 +28,9 @@ size_t copiesOf(const Case& one, const Settings& settings) {
 }
 
 // A context keeps 512 MiB of light for its views, and draws in batches, several times slower, what
-// finds no room. The levels fit in; every other method that keeps a quarter of it has a context of
-// its own, so that no method's time depends on which others there are.
+// finds no room: 512 x 512 texels of 256 slabs never do. The levels fit in; other light that takes
+// a quarter of it has a context of its own, so that no method's time depends on which others there
+// are.
 bool keepsMuch(const Settings& settings) {
   constexpr uint64_t TEXELS = uint64_t{1} << 24;  // of two floats
   const uint64_t side = settings.lightBufferSize;
@@ -77,12 +78,19 @@ class Worlds {
   [[nodiscard]] const host::RasterResult& opaque() const { return opaque_; }
 
  private:
-  // Closed forms of the phase functions, light of sky and ground, name of a method on its own.
-  using Key = std::tuple<bool, bool, std::string>;
+  // Closed forms of the phase functions, light of sky and ground; of methods that keep much, what
+  // light that is.
+  using Key = std::tuple<bool, bool, uint32_t, uint32_t, uint32_t>;
 
   static Key keyOf(const Method& method) {
     const Settings& settings = method.settings;
-    return {settings.analytic, settings.ambient, keepsMuch(settings) ? method.name : std::string()};
+    Key key{settings.analytic, settings.ambient, 0, 0, 0};
+    if (keepsMuch(settings)) {
+      std::get<2>(key) = settings.lightBufferSize;
+      std::get<3>(key) = settings.sliceCount;
+      std::get<4>(key) = settings.scattering;
+    }
+    return key;
   }
 
   const Case& case_;
